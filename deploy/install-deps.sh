@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Installs what adstar builds and runs with, from Debian 12 packages. Asks apt only for what is missing.
+#   bash deploy/install-deps.sh            build and run
+#   bash deploy/install-deps.sh --tests    and what the test suite needs besides
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build                    # build
+  libeigen3-dev                            # core
+  cyclonedds-dev cyclonedds-tools          # DDS (C API) and idlc
+  libspdlog-dev libcli11-dev libtomlplusplus-dev
+)
+if [[ "${1:-}" == "--tests" ]]; then
+  packages+=(clang clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
+             iproute2 git procps bash-completion)
+elif [[ -n "${1:-}" ]]; then
+  echo "usage: install-deps.sh [--tests]" >&2
+  exit 2
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ "$state" == "installed" ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  exit 0
+fi
+
+if [[ $EUID -eq 0 ]]; then
+  as_root=()
+elif command -v sudo >/dev/null; then
+  as_root=(sudo)
+else
+  echo "install-deps.sh: missing: ${missing[*]}" >&2
+  echo "install-deps.sh: run as root, or: apt-get install ${missing[*]}" >&2
+  exit 1
+fi
+echo "Installing: ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"

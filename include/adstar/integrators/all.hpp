@@ -1,0 +1,40 @@
+#pragma once
+// The schemes there are. To add one: its header beside this file and one line here; scenes, the
+// command line, the conformance suite and the benchmarks iterate this list.
+
+#include <cstddef>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "adstar/integrators/coadjoint.hpp"
+
+namespace adstar {
+
+using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2>;
+
+inline std::vector<std::string_view> scheme_names() {
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return std::vector<std::string_view>{std::tuple_element_t<I, Schemes>::kName...};
+  }
+  (std::make_index_sequence<std::tuple_size_v<Schemes>>{});
+}
+
+/// Calls `action(scheme)` with the scheme of that name; false when there is none.
+template <class Action>
+bool with_scheme(std::string_view name, Action&& action) {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    const auto attempt = [&](auto scheme) {
+      if (name != decltype(scheme)::kName) {
+        return false;
+      }
+      action(scheme);
+      return true;
+    };
+    return (attempt(std::tuple_element_t<I, Schemes>{}) || ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<Schemes>>{});
+}
+
+}  // namespace adstar

@@ -1,0 +1,176 @@
+#pragma once
+// One step of one spacecraft: the step is split where a torque has an edge, each smooth segment is
+// split until the scheme can follow the turn (guard.hpp), and each part takes the cheapest form of
+// the scheme's step: free, constant in the body, or the general one.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "adstar/integrators/coadjoint.hpp"
+#include "adstar/integrators/guard.hpp"
+#include "adstar/torques/all.hpp"
+
+namespace adstar {
+
+/// What a step has to say. Unresolved: the result is not to be trusted to the scheme's order.
+struct StepReport {
+  std::int64_t parts = 0;         ///< steps of the scheme that were taken
+  bool unresolved_angle = false;  ///< turned too far for the sub-step limit
+  bool unresolved_edges =
+      false;  ///< more torque edges than the edge limit; those past it fell inside a segment
+
+  bool resolved() const { return !unresolved_angle && !unresolved_edges; }
+};
+
+namespace detail {
+
+/// All torques of one spacecraft over one smooth segment.
+template <class T>
+struct Segment {
+  Ramp<T> body, inertial;  ///< the models that are linear in time, summed
+  bool varying = false;    ///< some model is to be asked at every stage
+  T varying_bound{};       ///< of the norm of those [N m]
+};
+
+template <class T>
+void add_to(Ramp<T>& sum, const Ramp<T>& term) {
+  sum.start = sum.start + term.start;
+  sum.slope = sum.slope + term.slope;
+}
+
+template <class T>
+Segment<T> make_segment(std::span<const Torque<T>> torques, std::int64_t t_ns) {
+  Segment<T> segment;
+  for (const Torque<T>& torque : torques) {
+    std::visit(
+        [&](const auto& model) {
+          if constexpr (requires { model.ramp_from(t_ns); }) {
+            add_to(model.frame == Frame::body ? segment.body : segment.inertial,
+                   model.ramp_from(t_ns));
+          } else {
+            segment.varying = true;
+            segment.varying_bound = segment.varying_bound + model.bound();
+          }
+        },
+        torque);
+  }
+  return segment;
+}
+
+/// The stage-varying models, summed at one instant.
+template <class T>
+void add_varying(TorqueSample<T>& sum, std::span<const Torque<T>> torques, const T& t_s) {
+  for (const Torque<T>& torque : torques) {
+    std::visit(
+        [&](const auto& model) {
+          if constexpr (requires { model.at(t_s); }) {
+            Vec3<T>& part = model.frame == Frame::body ? sum.body : sum.inertial;
+            part = part + model.at(t_s);
+          }
+        },
+        torque);
+  }
+}
+
+template <class T>
+bool is_zero(const Vec3<T>& v) {
+  return v == Vec3<T>{};
+}
+
+/// ∫|tau| dt over the segment, at most.
+template <class T>
+T impulse_bound(const Segment<T>& s, const T& length_s) {
+  using std::max;
+  const auto largest = [&](const Ramp<T>& ramp) {
+    return is_zero(ramp.slope) ? norm(ramp.start)
+                               : max(norm(ramp.start), norm(ramp.start + length_s * ramp.slope));
+  };
+  return length_s * (largest(s.body) + largest(s.inertial) + s.varying_bound);
+}
+
+/// `parts` equal steps of the scheme over a segment beginning at t_ns.
+template <class Scheme, class T>
+void run_segment(const RigidBody<T>& body, State<T>& state, std::span<const Torque<T>> torques,
+                 const Segment<T>& segment, std::int64_t t_ns, const T& length_s,
+                 std::int64_t parts) {
+  const T h = length_s / T(parts);
+  const bool inertial = !is_zero(segment.inertial.start) || !is_zero(segment.inertial.slope);
+  const bool level = is_zero(segment.body.slope) && is_zero(segment.inertial.slope);
+  if (!segment.varying && !inertial && level) {
+    if (is_zero(segment.body.start)) {
+      for (std::int64_t i = 0; i < parts; ++i) {
+        Scheme::step(body, state, h, NoTorque{});
+      }
+      return;
+    }
+    const TorqueSample<T> tau{segment.body.start, {}};
+    for (std::int64_t i = 0; i < parts; ++i) {
+      Scheme::step(body, state, h, body_torque([&](const Stage<T>&) { return tau; }));
+    }
+    return;
+  }
+  const T t_s = seconds<T>(t_ns);
+  for (std::int64_t i = 0; i < parts; ++i) {
+    const T begun = T(i) * h;
+    Scheme::step(body, state, h, mixed_torque([&](const Stage<T>& stage) {
+                   const T since = begun + stage.time_s;
+                   TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
+                                       segment.inertial.start + since * segment.inertial.slope};
+                   if (segment.varying) {
+                     add_varying(tau, torques, t_s + since);
+                   }
+                   return tau;
+                 }));
+  }
+}
+
+}  // namespace detail
+
+/// Advances `state` from t_ns to t_ns + h_ns [ns]. Never throws, never allocates. `Scheme` is one
+/// of integrators/all.hpp. An attitude that the step could not follow into a finite quaternion
+/// stays as it was and is reported; H_I takes its impulse all the same.
+template <class Scheme, class T>
+StepReport advance(const RigidBody<T>& body, State<T>& state, std::span<const Torque<T>> torques,
+                   std::int64_t t_ns, std::int64_t h_ns, const StepLimits& limits = {}) noexcept {
+  StepReport report;
+  const std::int64_t end_ns = t_ns + h_ns;
+  for (std::int64_t segments = 0; t_ns < end_ns; ++segments) {
+    std::int64_t next_ns = end_ns;
+    std::int64_t edge_ns = kNever;
+    for (const Torque<T>& torque : torques) {
+      edge_ns = std::min(
+          edge_ns,
+          std::visit([&](const auto& model) { return model.next_edge_after(t_ns); }, torque));
+    }
+    if (edge_ns < end_ns) {
+      if (segments < limits.edges) {
+        next_ns = edge_ns;
+      } else {
+        report.unresolved_edges = true;
+      }
+    }
+    const T length_s = seconds<T>(next_ns - t_ns);
+    const detail::Segment<T> segment = detail::make_segment(torques, t_ns);
+    const SubstepCount count =
+        count_substeps(body, body_momentum(state), detail::impulse_bound(segment, length_s),
+                       length_s, T(Scheme::kStageReach), limits);
+    const Quat<T> q_before = state.q_IB;
+    detail::run_segment<Scheme>(body, state, torques, segment, t_ns, length_s, count.parts);
+    report.parts += count.parts;
+    report.unresolved_angle = report.unresolved_angle || !count.within_limit;
+    const T q_squared = squared_norm(state.q_IB);
+    if (!(q_squared > T(0.5) && q_squared < T(2))) {
+      state.q_IB = q_before;
+      report.unresolved_angle = true;
+    }
+    t_ns = next_ns;
+  }
+  return report;
+}
+
+}  // namespace adstar

@@ -1,0 +1,17 @@
+#pragma once
+// The torque models there are. To add one: its header beside this file, one line here, its scene
+// keys in service/scene/torque_keys.cpp.
+
+#include <variant>
+
+#include "adstar/torques/commanded.hpp"
+#include "adstar/torques/constant.hpp"
+#include "adstar/torques/harmonic.hpp"
+#include "adstar/torques/table.hpp"
+
+namespace adstar {
+
+template <class T>
+using Torque = std::variant<Constant<T>, Harmonic<T>, Table<T>, Commanded<T>>;
+
+}  // namespace adstar

@@ -1,0 +1,158 @@
+#pragma once
+// What crosses between adstard and adstar-bridge: plain records in SI units, frames as in
+// include/adstar/README.md. Spacecraft and actuators are indices into the scene.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace adstar::runtime {
+
+/// 128 random bits, drawn once per commanding process.
+struct CommanderId {
+  std::uint64_t high = 0;
+  std::uint64_t low = 0;
+  friend bool operator==(const CommanderId&, const CommanderId&) = default;
+};
+
+/// CommandRecord::start_ns that asks for "from the next beat".
+inline constexpr std::int64_t kStartAtNextBeat = -std::numeric_limits<std::int64_t>::max();
+
+/// One TorqueCommand, names resolved to indices. Not yet judged.
+struct CommandRecord {
+  CommanderId commander;
+  std::uint64_t sequence = 0;
+  std::uint32_t spacecraft = 0;
+  std::uint32_t actuator = 0;
+  std::int32_t priority = 0;
+  std::uint32_t reserved = 0;
+  std::int64_t start_ns = kStartAtNextBeat;  ///< simulation time
+  std::int64_t end_ns = 0;                   ///< simulation time, exclusive; 0 with a duration
+  std::int64_t duration_ns = 0;              ///< from the effective start; 0 with an end
+  std::array<double, 3> torque_n_m{};        ///< in the actuator's frame
+};
+
+/// Same values and order as Verdict in idl/command.idl.
+enum class Verdict : std::uint32_t {
+  accepted,      ///< waits for its start; a final verdict follows
+  applied,       ///< final
+  applied_late,  ///< final: its start was past, its end was not
+  clamped,       ///< final: applied, scaled to the actuator's limit
+  superseded,    ///< final: displaced by a newer command before it began
+  expired,       ///< final: wholly past
+  outranked,     ///< final: a higher priority holds the actuator
+  refused        ///< final: see Reason
+};
+
+/// Same values and order as RefusalReason in idl/command.idl.
+enum class Reason : std::uint32_t {
+  none,
+  unknown_spacecraft,
+  unknown_actuator,
+  not_finite,
+  bad_interval,
+  old_sequence,
+  no_authority,
+  schedule_full,
+  capacity
+};
+
+/// The answer to one command.
+struct VerdictRecord {
+  CommanderId commander;
+  std::uint64_t sequence = 0;
+  std::uint32_t spacecraft = 0;
+  std::uint32_t actuator = 0;
+  std::int32_t priority = 0;
+  Verdict verdict = Verdict::refused;
+  Reason reason = Reason::none;
+  std::uint32_t reserved = 0;
+  std::uint64_t step = 0;              ///< decided at; when applied: the first step it acts in
+  std::int64_t time_ns = 0;            ///< simulation time of that step's beginning
+  std::int64_t start_ns = 0;           ///< in force from
+  std::int64_t end_ns = 0;             ///< in force until, exclusive
+  std::array<double, 3> torque_n_m{};  ///< as applied
+};
+
+/// Which topics a TelemetryRecord goes to, bit by bit.
+inline constexpr std::uint32_t kTopicAttitude = 1;
+inline constexpr std::uint32_t kTopicMomentum = 2;
+
+/// Flags of a motion sample; same values as in idl/telemetry.idl.
+inline constexpr std::uint32_t kFlagUnresolvedAngle = 1;
+inline constexpr std::uint32_t kFlagUnresolvedEdges = 2;
+inline constexpr std::uint32_t kFlagFinal = 4;
+
+/// One spacecraft at one step.
+struct TelemetryRecord {
+  std::uint32_t spacecraft = 0;
+  std::uint32_t topics = 0;
+  std::uint32_t flags = 0;
+  std::uint32_t reserved = 0;
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  std::array<double, 4> q_IB{};  ///< w, x, y, z
+  std::array<double, 3> omega_B_rad_s{};
+  std::array<double, 3> H_I_n_m_s{};
+  std::array<double, 3> Pi_B_n_m_s{};
+  double rotational_energy_j = 0;
+  double work_j = 0;
+  double energy_residual_j = 0;
+  std::array<double, 3> momentum_residual_I_n_m_s{};
+};
+
+/// One spacecraft in the fleet snapshot.
+struct FleetRecord {
+  std::array<double, 4> q_IB{};
+  std::array<double, 3> omega_B_rad_s{};
+  std::array<double, 3> H_I_n_m_s{};
+  double rotational_energy_j = 0;
+  double energy_residual_j = 0;
+  std::uint64_t flags = 0;
+};
+
+/// Header of the fleet snapshot; the FleetRecords follow it in the same slot.
+struct FleetHeader {
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  std::uint64_t members = 0;
+};
+
+/// Counts, once a second and at the end: becomes ServiceStatus.
+struct StatusRecord {
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  std::uint64_t stopped = 0;  ///< 1: the run is over
+  std::uint64_t unresolved_spacecraft = 0;
+  double worst_momentum_residual_relative = 0;
+  std::uint64_t commands_received = 0;
+  std::uint64_t commands_refused = 0;
+  std::uint64_t commands_lost = 0;
+  std::uint64_t verdicts_lost = 0;
+  std::uint64_t telemetry_lost = 0;
+  std::uint64_t bridge_restarts = 0;
+};
+
+struct QuantilesRecord {
+  std::uint64_t count = 0;
+  std::int64_t p50_ns = 0;
+  std::int64_t p99_ns = 0;
+  std::int64_t p99_9_ns = 0;
+  std::int64_t max_ns = 0;
+};
+
+/// Becomes StepTiming.
+struct TimingRecord {
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  QuantilesRecord wake_up_lateness;
+  QuantilesRecord tick_body;
+  std::uint64_t late_beats = 0;
+  std::uint64_t overruns = 0;
+  std::uint64_t missed_beats = 0;
+  std::uint64_t fifo_scheduling = 0;
+  std::uint64_t memory_locked = 0;
+  std::uint64_t cpu_pinned = 0;
+};
+
+}  // namespace adstar::runtime

@@ -1,0 +1,106 @@
+#pragma once
+// A validated scene: plain structs, SI units, frames as in include/adstar/README.md. Whatever is in
+// here is good; what was wrong with the file was said, all at once, in a SceneError.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "adstar/integrators/guard.hpp"
+#include "adstar/state.hpp"
+#include "adstar/torques/all.hpp"
+
+namespace adstar::scene {
+
+enum class Pace { clock, free };
+
+struct Simulation {
+  std::int64_t step_ns = 0;
+  std::string scheme = "coadjoint_rk4";
+  std::optional<std::int64_t> duration_ns;  ///< whole steps; none: endless
+  Pace pace = Pace::clock;
+  double rate = 1.0;                   ///< simulated seconds per second of wall clock
+  std::optional<std::string> epoch;    ///< ISO 8601 with its scale, e.g. "2026-01-01T00:00:00 UTC"
+  std::optional<double> accuracy_rad;  ///< the attitude accuracy that the user states
+  StepLimits limits;
+};
+
+/// A commanded torque of the scene: Spacecraft::torques[torque] is its adstar::Commanded.
+struct Actuator {
+  std::string name;
+  std::size_t torque = 0;
+  Vec3<double> max_torque_n_m;
+};
+
+struct Spacecraft {
+  std::string name;
+  Eigen::Matrix3d inertia_body_kg_m2;
+  State<double> initial;  ///< q_IB and H_I at t = 0
+  std::vector<Torque<double>> torques;
+  std::vector<Actuator> actuators;
+};
+
+/// Publication periods in whole steps; 0: not published.
+struct Telemetry {
+  std::uint64_t attitude_every = 0;
+  std::uint64_t momentum_every = 0;
+  std::uint64_t fleet_every = 0;
+  std::vector<std::uint32_t>
+      watched;  ///< spacecraft with AttitudeState and MomentumState of their own
+};
+
+struct Service {
+  std::string name;        ///< default: the host name
+  int priority = 80;       ///< SCHED_FIFO, 1 to 99; 0: ordinary scheduling
+  std::optional<int> cpu;  ///< pin the tick here
+};
+
+struct Dds {
+  std::uint32_t domain = 0;
+  std::string partition;
+  std::string interface = "lo";
+};
+
+struct Log {
+  std::string level = "info";
+  std::string file;  ///< empty: stderr
+};
+
+struct Scene {
+  Simulation simulation;
+  std::vector<Spacecraft> spacecraft;
+  Telemetry telemetry;
+  Service service;
+  Dds dds;
+  Log log;
+};
+
+/// Every complaint about one file, a line each: "file:line:col: key: got X, expected Y; try Z".
+class SceneError : public std::runtime_error {
+ public:
+  explicit SceneError(const std::vector<std::string>& complaints);
+};
+
+enum class Tables { read, skip };
+
+/// Reads and validates; throws SceneError. Tables are looked up beside the scene file.
+Scene load(const std::filesystem::path& file);
+
+/// The same from text. `file` serves messages and the place of tables; Tables::skip leaves them
+/// empty and unread.
+Scene parse(std::string_view text, const std::filesystem::path& file, Tables tables = Tables::read);
+
+/// "10ms", "2h", "1.5s", "250us", "100ns", "1min", "1d" to nanoseconds; nothing when it is none, or
+/// not whole nanoseconds.
+std::optional<std::int64_t> parse_duration(std::string_view text);
+
+/// Nanoseconds in the largest unit that keeps it short: "10ms", "1.5s".
+std::string format_duration(std::int64_t ns);
+
+}  // namespace adstar::scene
