@@ -1,0 +1,196 @@
+// adstard: lock memory, start the bridge, run the tick, look after both, end cleanly.
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <sys/random.h>
+#include <thread>
+#include <time.h>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "service/adstard/bridge_process.hpp"
+#include "service/adstard/housekeeping.hpp"
+#include "service/adstard/options.hpp"
+#include "service/adstard/scene_text.hpp"
+#include "service/log.hpp"
+#include "service/runtime/real_time.hpp"
+#include "service/runtime/shared_segment.hpp"
+#include "service/runtime/tick.hpp"
+#include "service/scene/scene.hpp"
+
+namespace {
+
+using namespace adstar;
+using namespace adstar::adstard;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kLookPeriod = kSecond;
+constexpr int kBridgePatienceMs = 3000;
+constexpr std::int64_t kBridgeStart = 10 * kSecond;
+
+std::int64_t clock_ns(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * kSecond + now.tv_nsec;
+}
+
+/// SIGINT and SIGTERM, blocked in every thread and taken here; 0 when none came within 20 ms.
+int take_signal(const sigset_t& signals) {
+  const timespec patience{0, 20'000'000};
+  const int signal = sigtimedwait(&signals, nullptr, &patience);
+  return signal > 0 ? signal : 0;
+}
+
+std::string bridge_message(const runtime::SharedSegment& segment) {
+  // The bridge may write while this reads: copy what is there, printable characters only.
+  std::string message;
+  for (std::size_t i = 0; i + 1 < sizeof segment.bridge_message; ++i) {
+    const char c = segment.bridge_message[i];
+    if (c == '\0') {
+      break;
+    }
+    message += c >= ' ' && c <= '~' ? c : ' ';
+  }
+  return message;
+}
+
+/// Waits until the bridge has found its place on the bus. kDone when it has.
+int await_bridge(BridgeProcess& bridge, const runtime::SharedSegment& segment,
+                 const sigset_t& signals) {
+  const std::int64_t patience_ends = clock_ns(CLOCK_MONOTONIC) + kBridgeStart;
+  while (true) {
+    const auto state = static_cast<runtime::BridgeState>(segment.bridge_state.load());
+    if (state == runtime::BridgeState::ready) {
+      return kDone;
+    }
+    if (!bridge.alive()) {
+      const std::string message = bridge_message(segment);
+      spdlog::error("{}", message.empty() ? "the bridge " + bridge.how() : message);
+      return bridge.exit_code() > 0 ? bridge.exit_code() : static_cast<int>(kFailed);
+    }
+    if (const int signal = take_signal(signals); signal != 0) {
+      spdlog::info("stopped by signal {} before the first step", signal);
+      return kFailed;
+    }
+    if (clock_ns(CLOCK_MONOTONIC) > patience_ends) {
+      spdlog::error("the bridge is not ready after {} s; is DDS usable on this machine?",
+                    kBridgeStart / kSecond);
+      return kFailed;
+    }
+  }
+}
+
+void log_start(const scene::Scene& scene) {
+  const scene::Simulation& s = scene.simulation;
+  spdlog::info("'{}' propagates {} spacecraft with {}, step {}, pace {}{}{}", scene.service.name,
+               scene.spacecraft.size(), s.scheme, scene::format_duration(s.step_ns),
+               s.pace == scene::Pace::clock ? "clock" : "free",
+               s.pace == scene::Pace::clock && s.rate != 1.0 ? fmt::format(" x {}", s.rate) : "",
+               s.duration_ns ? ", for " + scene::format_duration(*s.duration_ns) : ", endless");
+}
+
+int fly(const scene::Scene& scene, const std::string& text, const std::string& file,
+        const sigset_t& signals) {
+  runtime::MappedSegment segment = runtime::MappedSegment::create(
+      scene.telemetry.fleet_every != 0 ? scene.spacecraft.size() : 0);
+  runtime::Tick tick(scene, segment);
+  Housekeeping housekeeping(scene, tick, segment);
+
+  BridgeCommand command{bridge_beside_this_program(), segment.fd(), make_sealed_memfd(text), file,
+                        scene.service.name,           {},           clock_ns(CLOCK_REALTIME)};
+  if (getrandom(&command.instance, sizeof command.instance, 0) != sizeof command.instance) {
+    throw std::system_error(errno, std::generic_category(), "getrandom");
+  }
+  BridgeProcess bridge(command);
+  bridge.start();
+  if (const int code = await_bridge(bridge, *segment, signals); code != kDone) {
+    segment->stop_requested.store(1);
+    bridge.finish(kBridgePatienceMs);
+    return code;
+  }
+  log_start(scene);
+
+  runtime::RealTime real_time;
+  runtime::lock_memory(real_time);
+  std::atomic<bool> stop{false};
+  std::atomic<bool> prepared{false};
+  std::atomic<bool> ended{false};
+  std::thread tick_thread([&] {
+    runtime::make_thread_real_time(
+        scene.simulation.pace == scene::Pace::clock ? scene.service.priority : 0, scene.service.cpu,
+        real_time);
+    prepared.store(true);
+    prepared.notify_one();
+    tick.run(stop);
+    ended.store(true);
+  });
+  prepared.wait(false);
+  for (const std::string& warning : real_time.warnings) {
+    spdlog::warn("{}", warning);
+  }
+  housekeeping.set_real_time(real_time);
+
+  bool bridge_was_alive = true;
+  std::int64_t next_look = clock_ns(CLOCK_MONOTONIC) + kLookPeriod;
+  while (!ended.load()) {
+    if (const int signal = take_signal(signals); signal != 0) {
+      spdlog::info("stopping: {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
+      stop.store(true);
+    }
+    const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
+    const bool bridge_is_alive = bridge.alive();
+    if (!bridge_is_alive && bridge_was_alive) {
+      spdlog::warn("the bridge {}; the tick goes on, the bridge is started again", bridge.how());
+    }
+    bridge_was_alive = bridge_is_alive;
+    if (!bridge_is_alive && bridge.restart_when_due(now)) {
+      bridge_was_alive = true;
+    }
+    if (now >= next_look) {
+      housekeeping.look(bridge.restarts(), false);
+      next_look = now + kLookPeriod;
+    }
+  }
+  tick_thread.join();
+
+  tick.publish_final(kBridgePatienceMs / 3);
+  housekeeping.look(bridge.restarts(), true);
+  segment->stop_requested.store(1);
+  runtime::wake_bridge(*segment);
+  bridge.finish(kBridgePatienceMs);
+  housekeeping.summarise();
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int exit_code = kDone;
+  const std::optional<Options> options = parse_options(argc, argv, exit_code);
+  if (!options) {
+    return exit_code;
+  }
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);  // a log reader that goes away must not end the run
+  try {
+    const std::string text = read_text(options->scene_file);
+    scene::Scene scene = scene::parse(text, options->scene_file);
+    apply(*options, scene);
+    set_up_log(scene.log, "adstard");
+    return fly(scene, text, options->scene_file, signals);
+  } catch (const scene::SceneError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kUsage;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "adstard: {}\n", error.what());
+    return kFailed;
+  }
+}

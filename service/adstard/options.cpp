@@ -1,0 +1,59 @@
+#include "service/adstard/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace adstar::adstard {
+
+std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
+  Options options;
+  CLI::App app{
+      "adstard - propagates the attitude of the spacecraft of a scene in real time.\n"
+      "Takes TorqueCommand over DDS, publishes attitude, momentum and timing. Ctrl-C ends the run.",
+      "adstard"};
+  app.add_option("SCENE", options.scene_file, "the scene, a TOML file")->required();
+  app.add_option("--service", options.service,
+                 "what this daemon calls itself (default: the scene's name, or the host's)");
+  app.add_option("--duration", options.duration,
+                 "simulated time to run for, e.g. 10min (default: the scene's)");
+  app.set_version_flag("--version", ADSTAR_VERSION);
+  app.footer(
+      "Example:\n  adstard configs/scenes/demo.toml\n\n"
+      "Exit codes: 0 done, 2 usage or scene, 3 refused (somebody flies these spacecraft already), "
+      "1 anything else.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? kDone : kUsage;
+    return std::nullopt;
+  }
+  return options;
+}
+
+void apply(const Options& options, scene::Scene& scene) {
+  if (!options.service.empty()) {
+    if (options.service.size() > 63) {
+      throw scene::SceneError({"--service: got a name of more than 63 bytes; try a shorter one"});
+    }
+    scene.service.name = options.service;
+  }
+  if (options.duration.empty()) {
+    return;
+  }
+  const auto duration = scene::parse_duration(options.duration);
+  if (!duration || *duration <= 0) {
+    throw scene::SceneError({fmt::format(
+        "--duration: got '{}', expected a positive duration; try 10s or 2h", options.duration)});
+  }
+  const std::int64_t step = scene.simulation.step_ns;
+  if (*duration % step != 0) {
+    const std::int64_t below = *duration / step * step;
+    throw scene::SceneError(
+        {fmt::format("--duration: got '{}', expected whole steps of {}; try {} or {}",
+                     options.duration, scene::format_duration(step), scene::format_duration(below),
+                     scene::format_duration(below + step))});
+  }
+  scene.simulation.duration_ns = duration;
+}
+
+}  // namespace adstar::adstard

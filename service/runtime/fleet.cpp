@@ -1,0 +1,73 @@
+#include "service/runtime/fleet.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "adstar/integrators/all.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+Vec3<double> momentum_residual(const Vehicle& vehicle) noexcept {
+  return (vehicle.state.H_I.value() - vehicle.H_0) - vehicle.state.impulse_I.value();
+}
+
+template <std::size_t N>
+void assign(std::array<double, N>& target, const Vec3<double>& v) noexcept {
+  target = {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
+             const StepLimits& limits)
+    : limits_(limits) {
+  if (!with_scheme(scheme, [this](auto s) { step_all_ = &Fleet::step_all<decltype(s)>; })) {
+    throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
+  }
+  vehicles_.reserve(spacecraft.size());
+  for (const scene::Spacecraft& craft : spacecraft) {
+    Vehicle vehicle{RigidBody<double>(craft.inertia_body_kg_m2), craft.initial, craft.torques, {}};
+    vehicle.H_0 = vehicle.state.H_I.value();
+    vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
+    vehicles_.push_back(std::move(vehicle));
+  }
+}
+
+template <class Scheme>
+std::size_t Fleet::step_all(Fleet& fleet, std::int64_t t_ns, std::int64_t h_ns) noexcept {
+  std::size_t unresolved = 0;
+  for (Vehicle& vehicle : fleet.vehicles_) {
+    const StepReport report = advance<Scheme, double>(vehicle.body, vehicle.state, vehicle.torques,
+                                                      t_ns, h_ns, fleet.limits_);
+    vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
+                    (report.unresolved_edges ? kFlagUnresolvedEdges : 0U);
+    unresolved += report.resolved() ? 0 : 1;
+  }
+  return unresolved;
+}
+
+TelemetryRecord sample(const Vehicle& vehicle) noexcept {
+  TelemetryRecord record;
+  const State<double>& state = vehicle.state;
+  const Vec3<double> Pi_B = body_momentum(state);
+  record.flags = vehicle.flags;
+  record.q_IB = {state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
+  assign(record.omega_B_rad_s, vehicle.body.angular_velocity(Pi_B));
+  assign(record.H_I_n_m_s, state.H_I.value());
+  assign(record.Pi_B_n_m_s, Pi_B);
+  record.rotational_energy_j = vehicle.body.energy(Pi_B);
+  record.work_j = state.work.value;
+  record.energy_residual_j = (record.rotational_energy_j - vehicle.E_0) - record.work_j;
+  assign(record.momentum_residual_I_n_m_s, momentum_residual(vehicle));
+  return record;
+}
+
+double momentum_residual_relative(const Vehicle& vehicle) noexcept {
+  const double scale =
+      std::max(norm(vehicle.state.H_I.value()), norm(vehicle.state.impulse_I.value()));
+  return scale > 0 ? norm(momentum_residual(vehicle)) / scale : 0;
+}
+
+}  // namespace adstar::runtime

@@ -1,0 +1,56 @@
+#pragma once
+// The spacecraft of a scene in flight: what each needs for a step, and one step of all of them.
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "adstar/bodies/rigid_body.hpp"
+#include "adstar/propagator.hpp"
+#include "service/runtime/records.hpp"
+#include "service/scene/scene.hpp"
+
+namespace adstar::runtime {
+
+struct Vehicle {
+  RigidBody<double> body;
+  State<double> state;
+  std::vector<Torque<double>> torques;  ///< only the models that its scene names
+  Vec3<double> H_0;                     ///< inertial momentum at t = 0 [N m s]
+  double E_0 = 0;                       ///< rotational energy at t = 0 [J]
+  std::uint32_t flags = 0;              ///< kFlagUnresolved... of the last step
+};
+
+class Fleet {
+ public:
+  /// `scheme` and `limits` are the scene's. Throws std::invalid_argument for an unknown scheme.
+  Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
+        const StepLimits& limits);
+
+  /// Steps every vehicle over [t_ns, t_ns + h_ns]. Never throws, never allocates.
+  /// Returns how many could not be resolved.
+  std::size_t step(std::int64_t t_ns, std::int64_t h_ns) noexcept {
+    return step_all_(*this, t_ns, h_ns);
+  }
+
+  std::vector<Vehicle>& vehicles() noexcept { return vehicles_; }
+  const std::vector<Vehicle>& vehicles() const noexcept { return vehicles_; }
+
+ private:
+  using StepAll = std::size_t (*)(Fleet&, std::int64_t, std::int64_t) noexcept;
+  template <class Scheme>
+  static std::size_t step_all(Fleet& fleet, std::int64_t t_ns, std::int64_t h_ns) noexcept;
+
+  std::vector<Vehicle> vehicles_;
+  StepLimits limits_;
+  StepAll step_all_ = nullptr;  ///< the scheme, resolved once
+};
+
+/// Everything that is said of one vehicle at one instant; spacecraft, topics, step and time are the
+/// caller's.
+TelemetryRecord sample(const Vehicle& vehicle) noexcept;
+
+/// |H_I - H_0 - impulse| / max(|H_I|, |impulse|); 0 at rest.
+double momentum_residual_relative(const Vehicle& vehicle) noexcept;
+
+}  // namespace adstar::runtime

@@ -1,0 +1,274 @@
+#include "service/runtime/gate.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "service/runtime/judge.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+std::size_t count_actuators(const std::vector<scene::Spacecraft>& spacecraft) {
+  return std::accumulate(spacecraft.begin(), spacecraft.end(), std::size_t{0},
+                         [](std::size_t sum, const auto& s) { return sum + s.actuators.size(); });
+}
+
+}  // namespace
+
+CommandGate::CommandGate(const std::vector<scene::Spacecraft>& spacecraft, VerdictRing& verdicts,
+                         std::size_t pool)
+    : verdicts_(verdicts), memory_(count_actuators(spacecraft)), pool_(pool) {
+  for (std::uint32_t i = 0; i < spacecraft.size(); ++i) {
+    first_actuator_.push_back(static_cast<std::uint32_t>(actuators_.size()));
+    const auto& declared = spacecraft[i].actuators;
+    for (std::uint32_t j = 0; j < declared.size(); ++j) {
+      actuators_.push_back({i, j, static_cast<std::uint32_t>(declared[j].torque),
+                            declared[j].max_torque_n_m, kNone, false});
+    }
+  }
+  first_actuator_.push_back(static_cast<std::uint32_t>(actuators_.size()));
+  busy_.reserve(actuators_.size());
+  for (std::uint32_t entry = static_cast<std::uint32_t>(pool_.size()); entry-- > 0;) {
+    pool_[entry].next = free_;
+    free_ = entry;
+  }
+}
+
+const CommandGate::Actuator* CommandGate::find(const CommandRecord& command,
+                                               std::uint32_t& number) const noexcept {
+  if (command.spacecraft >= first_actuator_.size() - 1) {
+    return nullptr;
+  }
+  number = first_actuator_[command.spacecraft] + command.actuator;
+  if (command.actuator >= actuators_.size() || number >= first_actuator_[command.spacecraft + 1]) {
+    return nullptr;
+  }
+  return &actuators_[number];
+}
+
+VerdictRecord CommandGate::answer_to(const CommandRecord& command,
+                                     const Beat& beat) const noexcept {
+  VerdictRecord verdict;
+  verdict.commander = command.commander;
+  verdict.sequence = command.sequence;
+  verdict.spacecraft = command.spacecraft;
+  verdict.actuator = command.actuator;
+  verdict.priority = command.priority;
+  verdict.step = beat.step;
+  verdict.time_ns = beat.t_ns;
+  return verdict;
+}
+
+void CommandGate::put(const VerdictRecord& verdict) noexcept {
+  if (!verdicts_.push(verdict)) {
+    ++counters_.verdicts_lost;
+  }
+}
+
+/// A final verdict: said, remembered, counted.
+void CommandGate::conclude(Stream& stream, const VerdictRecord& verdict) noexcept {
+  if (verdict.verdict == Verdict::refused || verdict.verdict == Verdict::expired ||
+      verdict.verdict == Verdict::outranked) {
+    ++counters_.refused;
+  }
+  stream.remember(verdict);
+  put(verdict);
+}
+
+/// Answers a sequence number that was heard before as it was answered then; false when that is
+/// forgotten.
+bool CommandGate::repeat(const Stream& stream, const Actuator& actuator,
+                         std::uint64_t sequence) noexcept {
+  for (std::uint32_t entry = actuator.head; entry != kNone; entry = pool_[entry].next) {
+    const Live& live = pool_[entry];
+    if (!live.begun && live.stream == memory_.index_of(stream) &&
+        live.verdict.sequence == sequence) {
+      VerdictRecord verdict = live.verdict;
+      verdict.verdict = Verdict::accepted;
+      put(verdict);
+      return true;
+    }
+  }
+  const VerdictRecord* const known = stream.recall(sequence);
+  if (known != nullptr) {
+    put(*known);
+  }
+  return known != nullptr;
+}
+
+void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexcept {
+  ++counters_.received;
+  VerdictRecord verdict = answer_to(command, beat);
+  std::uint32_t number = 0;
+  if (find(command, number) == nullptr) {
+    // The bridge resolves names to indices; one out of range is the bridge's fault and nobody's
+    // command.
+    ++counters_.refused;
+    return;
+  }
+  Actuator& actuator = actuators_[number];
+  Stream* const stream = memory_.find(command.commander, number, counters_.received);
+  if (stream == nullptr) {
+    ++counters_.refused;
+    verdict.reason = Reason::capacity;
+    put(verdict);
+    return;
+  }
+  if (command.sequence <= stream->last_sequence) {
+    if (!repeat(*stream, actuator, command.sequence)) {
+      ++counters_.refused;
+      verdict.reason = Reason::old_sequence;
+      put(verdict);
+    }
+    return;
+  }
+  stream->last_sequence = command.sequence;
+
+  const Judgement judgement = judge(command, actuator.max_torque_n_m, beat.t_ns);
+  verdict.verdict = judgement.verdict;
+  verdict.reason = judgement.reason;
+  verdict.start_ns = judgement.start_ns;
+  verdict.end_ns = judgement.end_ns;
+  verdict.torque_n_m = judgement.torque_n_m;
+  if (verdict.verdict == Verdict::refused || verdict.verdict == Verdict::expired) {
+    conclude(*stream, verdict);
+    return;
+  }
+  for (std::uint32_t entry = actuator.head; entry != kNone; entry = pool_[entry].next) {
+    if (pool_[entry].verdict.priority > command.priority) {
+      verdict.verdict = Verdict::outranked;
+      conclude(*stream, verdict);
+      return;
+    }
+  }
+  const bool waits = verdict.start_ns >= beat.t_ns + beat.h_ns;
+  verdict.reason = make_room(actuator, command.priority, verdict.start_ns, waits);
+  if (verdict.reason != Reason::none) {
+    verdict.verdict = Verdict::refused;
+    conclude(*stream, verdict);
+    return;
+  }
+  displace(actuator, command.priority, verdict.start_ns, beat);
+  const std::uint32_t entry = free_;
+  free_ = pool_[entry].next;
+  pool_[entry] = {verdict, memory_.index_of(*stream), kNone, false};
+  ++stream->live;
+  insert(actuator, entry);
+  if (!actuator.busy) {
+    actuator.busy = true;
+    busy_.push_back(number);
+  }
+  if (waits) {
+    verdict.verdict = Verdict::accepted;
+    put(verdict);
+  }
+}
+
+/// Whether a command of that rank and start finds a place, before anything is changed.
+Reason CommandGate::make_room(const Actuator& actuator, std::int32_t priority,
+                              std::int64_t start_ns, bool waits) const noexcept {
+  if (free_ == kNone) {
+    return Reason::capacity;
+  }
+  std::size_t waiting = waits ? 1 : 0;
+  for (std::uint32_t entry = actuator.head; entry != kNone; entry = pool_[entry].next) {
+    const Live& live = pool_[entry];
+    const bool stays =
+        !live.begun && live.verdict.priority == priority && live.verdict.start_ns < start_ns;
+    waiting += stays ? 1 : 0;
+  }
+  return waiting > kMaxWaiting ? Reason::schedule_full : Reason::none;
+}
+
+/// The newest of the highest rank overrides from its own start: what began before is cut there,
+/// what would begin after is superseded, and what waits below its rank is outranked.
+void CommandGate::displace(Actuator& actuator, std::int32_t priority, std::int64_t start_ns,
+                           const Beat& beat) noexcept {
+  std::uint32_t* link = &actuator.head;
+  while (*link != kNone) {
+    const std::uint32_t entry = *link;
+    Live& live = pool_[entry];
+    const bool below = live.verdict.priority < priority;
+    if (live.verdict.start_ns < start_ns && (live.begun || !below)) {
+      live.verdict.end_ns = std::min(live.verdict.end_ns, start_ns);
+      link = &live.next;
+      continue;
+    }
+    if (!live.begun) {
+      VerdictRecord verdict = live.verdict;
+      verdict.verdict = below ? Verdict::outranked : Verdict::superseded;
+      verdict.step = beat.step;
+      verdict.time_ns = beat.t_ns;
+      conclude(memory_.at(live.stream), verdict);
+    }
+    *link = live.next;
+    release(entry);
+  }
+}
+
+void CommandGate::insert(Actuator& actuator, std::uint32_t entry) noexcept {
+  std::uint32_t* link = &actuator.head;
+  while (*link != kNone && pool_[*link].verdict.start_ns < pool_[entry].verdict.start_ns) {
+    link = &pool_[*link].next;
+  }
+  pool_[entry].next = *link;
+  *link = entry;
+}
+
+void CommandGate::release(std::uint32_t entry) noexcept {
+  --memory_.at(pool_[entry].stream).live;
+  pool_[entry].next = free_;
+  free_ = entry;
+}
+
+void CommandGate::begin_step(const Beat& beat, Fleet& fleet) noexcept {
+  for (std::size_t i = 0; i < busy_.size();) {
+    Actuator& actuator = actuators_[busy_[i]];
+    advance(actuator, beat, fleet);
+    if (actuator.head == kNone) {
+      actuator.busy = false;
+      busy_[i] = busy_.back();
+      busy_.pop_back();
+    } else {
+      ++i;
+    }
+  }
+}
+
+void CommandGate::advance(Actuator& actuator, const Beat& beat, Fleet& fleet) noexcept {
+  auto& commanded =
+      std::get<Commanded<double>>(fleet.vehicles()[actuator.spacecraft].torques[actuator.torque]);
+  commanded.intervals = 0;
+  std::uint32_t* link = &actuator.head;
+  while (*link != kNone) {
+    const std::uint32_t entry = *link;
+    Live& live = pool_[entry];
+    VerdictRecord& v = live.verdict;
+    if (v.start_ns >= beat.t_ns + beat.h_ns || commanded.intervals == Commanded<double>::kWindow) {
+      break;  // the list ascends; what the window cannot hold begins, late, at the next beat
+    }
+    if (!live.begun) {
+      v.step = beat.step;
+      v.time_ns = beat.t_ns;
+      if (v.start_ns < beat.t_ns) {
+        v.start_ns = beat.t_ns;
+        v.verdict = v.verdict == Verdict::clamped ? Verdict::clamped : Verdict::applied_late;
+      }
+      if (v.end_ns <= v.start_ns) {
+        v.verdict = Verdict::expired;
+      }
+      live.begun = true;
+      conclude(memory_.at(live.stream), v);
+    }
+    if (v.end_ns <= beat.t_ns) {
+      *link = live.next;
+      release(entry);
+      continue;
+    }
+    commanded.window[commanded.intervals++] = {
+        v.start_ns, v.end_ns, {v.torque_n_m[0], v.torque_n_m[1], v.torque_n_m[2]}};
+    link = &live.next;
+  }
+}
+
+}  // namespace adstar::runtime

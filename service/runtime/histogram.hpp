@@ -1,0 +1,82 @@
+#pragma once
+// Distribution of times in fixed memory: 32 buckets an octave (the idea of HdrHistogram, Tene
+// 2012), so a quantile is known to 3 %. One thread records, any thread reads.
+
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "service/runtime/records.hpp"
+
+namespace adstar::runtime {
+
+class Histogram {
+ public:
+  /// Negative times count as zero.
+  void record(std::int64_t ns) noexcept {
+    const auto value = static_cast<std::uint64_t>(ns < 0 ? 0 : ns);
+    increment(buckets_[bucket_of(value)]);
+    increment(count_);
+    if (value > maximum_.load(std::memory_order_relaxed)) {
+      maximum_.store(value, std::memory_order_relaxed);
+    }
+  }
+
+  QuantilesRecord quantiles() const noexcept {
+    QuantilesRecord result;
+    result.count = count_.load(std::memory_order_relaxed);
+    result.max_ns = static_cast<std::int64_t>(maximum_.load(std::memory_order_relaxed));
+    result.p50_ns = quantile(result, 0.5);
+    result.p99_ns = quantile(result, 0.99);
+    result.p99_9_ns = quantile(result, 0.999);
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t kPerOctave = 32;
+  static constexpr std::size_t kBuckets = kPerOctave * 60;
+
+  static void increment(std::atomic<std::uint64_t>& counter) noexcept {
+    // One writer: a load and a store, no locked instruction.
+    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+
+  static std::size_t bucket_of(std::uint64_t value) noexcept {
+    if (value < kPerOctave) {
+      return static_cast<std::size_t>(value);
+    }
+    const auto octave = static_cast<std::size_t>(std::bit_width(value)) - 6;  // 0 for 32 to 63
+    return kPerOctave * (octave + 1) +
+           static_cast<std::size_t>((value >> octave) & (kPerOctave - 1));
+  }
+
+  /// The largest value that falls into a bucket.
+  static std::uint64_t top_of(std::size_t bucket) noexcept {
+    if (bucket < kPerOctave) {
+      return bucket;
+    }
+    const std::size_t octave = bucket / kPerOctave - 1;
+    const std::uint64_t first = (kPerOctave + bucket % kPerOctave) << octave;
+    return first + ((std::uint64_t{1} << octave) - 1);
+  }
+
+  std::int64_t quantile(const QuantilesRecord& known, double fraction) const noexcept {
+    const double wanted = fraction * static_cast<double>(known.count);
+    std::uint64_t seen = 0;
+    for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+      seen += buckets_[bucket].load(std::memory_order_relaxed);
+      if (seen > 0 && static_cast<double>(seen) >= wanted) {
+        const auto top = static_cast<std::int64_t>(top_of(bucket));
+        return top < known.max_ns ? top : known.max_ns;
+      }
+    }
+    return known.max_ns;
+  }
+
+  std::atomic<std::uint64_t> buckets_[kBuckets]{};
+  std::atomic<std::uint64_t> count_{0};
+  std::atomic<std::uint64_t> maximum_{0};
+};
+
+}  // namespace adstar::runtime

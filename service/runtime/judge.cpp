@@ -1,0 +1,78 @@
+#include "service/runtime/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adstar/torques/frame.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+bool all_finite(const std::array<double, 3>& v) noexcept {
+  return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// The effective interval; false when the command does not state one.
+bool interval(const CommandRecord& command, std::int64_t now_ns, Judgement& result) noexcept {
+  const bool at_once = command.start_ns == kStartAtNextBeat;
+  const std::int64_t asked_start = at_once ? now_ns : command.start_ns;
+  result.start_ns = std::max(asked_start, now_ns);
+  const bool by_duration = command.duration_ns != 0;
+  if (by_duration == (command.end_ns != 0)) {
+    return false;  // both or neither
+  }
+  if (by_duration) {
+    if (command.duration_ns < 0 || command.duration_ns > kNever - result.start_ns) {
+      return false;
+    }
+    result.end_ns = result.start_ns + command.duration_ns;
+    return true;
+  }
+  result.end_ns = command.end_ns;
+  return at_once || command.end_ns > asked_start;
+}
+
+}  // namespace
+
+Judgement judge(const CommandRecord& command, const Vec3<double>& max_torque_n_m,
+                std::int64_t now_ns) noexcept {
+  Judgement result;
+  if (!all_finite(command.torque_n_m)) {
+    result.reason = Reason::not_finite;
+    return result;
+  }
+  result.torque_n_m = command.torque_n_m;
+  if (!interval(command, now_ns, result)) {
+    result.reason = Reason::bad_interval;
+    return result;
+  }
+  if (result.end_ns <= now_ns) {
+    result.verdict = Verdict::expired;
+    return result;
+  }
+  const double limits[] = {max_torque_n_m.x, max_torque_n_m.y, max_torque_n_m.z};
+  double scale = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double asked = std::fabs(command.torque_n_m[axis]);
+    if (asked > 0 && limits[axis] == 0) {
+      result.reason = Reason::no_authority;
+      return result;
+    }
+    if (asked > limits[axis]) {
+      scale = std::min(scale, limits[axis] / asked);
+    }
+  }
+  const bool late = command.start_ns != kStartAtNextBeat && command.start_ns < now_ns;
+  result.verdict = late ? Verdict::applied_late : Verdict::applied;
+  if (scale < 1) {
+    result.verdict = Verdict::clamped;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      // The product may round one unit past the limit.
+      result.torque_n_m[axis] =
+          std::clamp(scale * command.torque_n_m[axis], -limits[axis], limits[axis]);
+    }
+  }
+  return result;
+}
+
+}  // namespace adstar::runtime
