@@ -56,10 +56,11 @@ State<T> make_state(const Quat<T>& q_IB, const Vec3<T>& H_I) {
   return state;
 }
 
-/// Pi_B = R_IBᵀ H_I [N m s]
+/// Pi_B = R_IBᵀ H_I [N m s]. Renormalised: between steps |q|² is 1 to some units in the last place
+/// only, and |Pi_B| would show them doubled.
 template <class T>
 Vec3<T> body_momentum(const State<T>& state) {
-  return rotate_inverse(state.q_IB, state.H_I.value());
+  return rotate_inverse(renormalised(state.q_IB), state.H_I.value());
 }
 
 }  // namespace adstar

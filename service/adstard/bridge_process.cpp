@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 constexpr std::int64_t kFirstBackoff = 10 * kMillisecond;
-constexpr std::int64_t kLongestBackoff = 1000 * kMillisecond;
+constexpr std::int64_t kLongestBackoff = 500 * kMillisecond;
 constexpr std::int64_t kGoodRun =
     5000 * kMillisecond;  // ran this long: the next back-off is short again
 

@@ -31,22 +31,23 @@ struct StepLimits {
 /// `impulse` [N m s].
 template <class T>
 T angular_speed_bound_squared(const RigidBody<T>& body, const Vec3<T>& Pi_B, const T& impulse) {
-  using std::max;
   using std::sqrt;
+  // Not max(): what is no number must stay none, or a ruined momentum would count as a slow one.
+  const auto not_negative = [](const T& x) { return x < T(0) ? T(0) : x; };
   const auto& J = body.moments();
   const T a1 = T(1) / J[0], a2 = T(1) / J[1], a3 = T(1) / J[2];
   T P_squared = squared_norm(Pi_B);
   T two_E = T(2) * body.energy(Pi_B);
-  if (impulse > T(0)) {
-    const T P = max(T(0), sqrt(P_squared) - impulse);
-    const T root = sqrt(max(T(0), two_E)) + impulse * sqrt(a1);
+  if (!(impulse <= T(0))) {
+    const T P = not_negative(sqrt(P_squared) - impulse);
+    const T root = sqrt(not_negative(two_E)) + impulse * sqrt(a1);
     P_squared = P * P;
     two_E = root * root;
   }
   const T outer = (a1 + a3) * two_E - a1 * a3 * P_squared;
   const T inner = two_E >= a2 * P_squared ? (a1 + a2) * two_E - a1 * a2 * P_squared
                                           : (a2 + a3) * two_E - a2 * a3 * P_squared;
-  return max(T(0), max(outer, inner));
+  return not_negative(inner > outer || inner != inner ? inner : outer);
 }
 
 struct SubstepCount {

@@ -1,0 +1,108 @@
+#include "service/bridge/command_intake.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "service/dds/convert.hpp"
+#include "service/dds/rate_limit.hpp"
+#include "service/dds/verdict_text.hpp"
+
+namespace adstar::bridge {
+
+CommandIntake::CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
+                             const Directory& directory, const OtherServices& others,
+                             StatusWriter& statuses, std::string service)
+    : segment_(segment),
+      directory_(directory),
+      others_(others),
+      statuses_(statuses),
+      service_(std::move(service)),
+      reader_(participant),
+      wait_set_(participant) {
+  wait_set_.attach(reader_);
+  thread_ = std::thread([this] { listen(); });
+}
+
+CommandIntake::~CommandIntake() {
+  ending_.store(true);
+  try {
+    wait_set_.wake();
+  } catch (const std::exception& error) {
+    spdlog::warn("{}", error.what());  // the thread ends with its next time-out
+  }
+  thread_.join();
+}
+
+void CommandIntake::check() const {
+  if (failed_.load()) {
+    std::rethrow_exception(failure_);
+  }
+}
+
+void CommandIntake::listen() noexcept {
+  try {
+    while (!ending_.load()) {
+      wait_set_.wait(std::chrono::seconds(1));
+      while (!ending_.load() &&
+             reader_.take([this](const adstar_TorqueCommand& command, const dds_sample_info_t&) {
+               take(command);
+             }) > 0) {}
+    }
+  } catch (...) {
+    failure_ = std::current_exception();
+    failed_.store(true);
+  }
+}
+
+void CommandIntake::take(const adstar_TorqueCommand& command) {
+  const auto spacecraft = directory_.spacecraft(dds::text_of(command.spacecraft));
+  if (!spacecraft) {
+    // Another daemon answers for its own spacecraft.
+    if (!others_.flies(dds::text_of(command.spacecraft))) {
+      refuse(command, runtime::Reason::unknown_spacecraft);
+    }
+    return;
+  }
+  const auto actuator = directory_.actuator(*spacecraft, dds::text_of(command.actuator));
+  if (!actuator) {
+    refuse(command, runtime::Reason::unknown_actuator);
+    return;
+  }
+  if (segment_.commands.push(dds::to_record(command, *spacecraft, *actuator))) {
+    handed_over_.fetch_add(1);
+    return;
+  }
+  segment_.commands_lost.fetch_add(1);
+  static dds::RateLimit limit(1);
+  if (limit.admit()) {
+    spdlog::warn(
+        "the command ring is full, commands are lost; send fewer of them, or find out why adstard "
+        "does not take them");
+  }
+}
+
+void CommandIntake::refuse(const adstar_TorqueCommand& command, runtime::Reason reason) {
+  refused_.fetch_add(1);
+  runtime::VerdictRecord verdict;
+  verdict.commander = {command.commander.high, command.commander.low};
+  verdict.sequence = command.sequence_number;
+  verdict.priority = command.priority;
+  verdict.verdict = runtime::Verdict::refused;
+  verdict.reason = reason;
+  runtime::StatusRecord newest;
+  if (segment_.status.read(newest) > 0) {
+    verdict.step = newest.step;
+    verdict.time_ns = newest.time_ns;
+  }
+  statuses_.write(dds::to_sample(verdict, dds::text_of(command.spacecraft),
+                                 dds::text_of(command.actuator), service_));
+  static dds::RateLimit limit(5);
+  if (const auto dropped = limit.admit()) {
+    spdlog::warn("refused a command for '{}' actuator '{}': {}", dds::text_of(command.spacecraft),
+                 dds::text_of(command.actuator), dds::reason_text(reason));
+    if (*dropped > 0) {
+      spdlog::warn("{} more refusals since the last one told", *dropped);
+    }
+  }
+}
+
+}  // namespace adstar::bridge

@@ -1,0 +1,57 @@
+#pragma once
+// TorqueCommand samples become CommandRecords in the ring. Only names are looked at here: adstard
+// judges the rest.
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include "service/bridge/directory.hpp"
+#include "service/bridge/other_services.hpp"
+#include "service/bridge/status_writer.hpp"
+#include "service/dds/reader.hpp"
+#include "service/dds/wait_set.hpp"
+#include "service/runtime/shared_segment.hpp"
+
+namespace adstar::bridge {
+
+/// Listens on a thread of its own from construction to destruction; the only producer of the
+/// command ring.
+class CommandIntake {
+ public:
+  CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
+                const Directory& directory, const OtherServices& others, StatusWriter& statuses,
+                std::string service);
+  ~CommandIntake();
+  CommandIntake(const CommandIntake&) = delete;
+  CommandIntake& operator=(const CommandIntake&) = delete;
+
+  /// Rethrows what ended the thread before its time.
+  void check() const;
+
+  std::uint64_t handed_over() const noexcept { return handed_over_.load(); }
+  std::uint64_t refused() const noexcept { return refused_.load(); }
+
+ private:
+  void listen() noexcept;
+  void take(const adstar_TorqueCommand& command);
+  void refuse(const adstar_TorqueCommand& command, runtime::Reason reason);
+
+  runtime::SharedSegment& segment_;
+  const Directory& directory_;
+  const OtherServices& others_;
+  StatusWriter& statuses_;
+  std::string service_;
+  dds::Reader<adstar_TorqueCommand> reader_;
+  dds::WaitSet wait_set_;
+  std::atomic<std::uint64_t> handed_over_{0};
+  std::atomic<std::uint64_t> refused_{0};
+  std::atomic<bool> ending_{false};
+  std::atomic<bool> failed_{false};
+  std::exception_ptr failure_;  ///< written before failed_
+  std::thread thread_;
+};
+
+}  // namespace adstar::bridge

@@ -1,0 +1,40 @@
+#include "service/bridge/directory.hpp"
+
+namespace adstar::bridge {
+
+Directory::Directory(const scene::Scene& scene) : scene_(&scene) {
+  by_name_.reserve(scene.spacecraft.size());
+  for (std::uint32_t i = 0; i < scene.spacecraft.size(); ++i) {
+    by_name_.emplace(scene.spacecraft[i].name, i);
+  }
+}
+
+std::optional<std::uint32_t> Directory::spacecraft(std::string_view name) const {
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<std::uint32_t> Directory::actuator(std::uint32_t spacecraft,
+                                                 std::string_view name) const {
+  const auto& actuators = scene_->spacecraft.at(spacecraft).actuators;
+  for (std::uint32_t i = 0; i < actuators.size(); ++i) {
+    if (actuators[i].name == name) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view Directory::spacecraft_name(std::uint32_t index) const noexcept {
+  return index < size() ? std::string_view(scene_->spacecraft[index].name) : std::string_view();
+}
+
+std::string_view Directory::actuator_name(std::uint32_t spacecraft,
+                                          std::uint32_t actuator) const noexcept {
+  if (spacecraft >= size() || actuator >= scene_->spacecraft[spacecraft].actuators.size()) {
+    return {};
+  }
+  return scene_->spacecraft[spacecraft].actuators[actuator].name;
+}
+
+}  // namespace adstar::bridge

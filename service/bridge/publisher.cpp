@@ -1,0 +1,163 @@
+#include "service/bridge/publisher.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "service/bridge/roster.hpp"
+
+namespace adstar::bridge {
+namespace {
+
+constexpr int kBatch = 512;
+// Two chunks are 104 kB: what a default receive buffer takes at once.
+constexpr int kFleetBatch = 2;
+
+dds::ServiceFacts facts_of(const scene::Scene& scene, std::string_view service,
+                           const Options& options) {
+  dds::ServiceFacts facts;
+  facts.service = service;
+  facts.instance = options.instance;
+  facts.started_utc_ns = options.started_utc_ns;
+  facts.step_length_ns = scene.simulation.step_ns;
+  facts.pace = scene.simulation.pace == scene::Pace::clock ? "clock" : "free";
+  facts.scheme = scene.simulation.scheme;
+  facts.spacecraft = static_cast<std::uint32_t>(scene.spacecraft.size());
+  return facts;
+}
+
+}  // namespace
+
+Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment& segment,
+                     const scene::Scene& scene, const Directory& directory, const Options& options,
+                     StatusWriter& statuses)
+    : segment_(segment),
+      directory_(directory),
+      statuses_(statuses),
+      service_(options.service),
+      facts_(facts_of(scene, service_, options)),
+      attitude_(participant),
+      momentum_(participant),
+      fleet_(participant),
+      status_(participant),
+      timing_(participant),
+      snapshot_(runtime::fleet_words(segment.fleet_size())),
+      next_chunk_(chunks_of(segment.fleet_size())) {
+  for (const std::uint32_t index : scene.telemetry.watched) {
+    const std::string_view name = directory.spacecraft_name(index);
+    if (scene.telemetry.attitude_every > 0) {
+      attitude_.register_instance(dds::to_attitude({}, name, service_));
+    }
+    if (scene.telemetry.momentum_every > 0) {
+      momentum_.register_instance(dds::to_momentum({}, name, service_));
+    }
+  }
+}
+
+Publisher::Left Publisher::publish_some() {
+  const bool verdicts = publish_verdicts();
+  const bool telemetry = publish_telemetry();
+  const bool fleet = publish_fleet();
+  publish_health();
+  return verdicts || telemetry ? Left::more : fleet ? Left::fleet : Left::nothing;
+}
+
+bool Publisher::publish_verdicts() {
+  for (int i = 0; i < kBatch; ++i) {
+    const auto record = segment_->verdicts.pop();
+    if (!record) {
+      return false;
+    }
+    const std::string_view spacecraft = directory_.spacecraft_name(record->spacecraft);
+    const std::string_view actuator =
+        directory_.actuator_name(record->spacecraft, record->actuator);
+    count_unsent(statuses_.write(dds::to_sample(*record, spacecraft, actuator, service_)));
+    ++counts_.verdicts;
+  }
+  return true;
+}
+
+bool Publisher::publish_telemetry() {
+  for (int i = 0; i < kBatch; ++i) {
+    const auto record = segment_->telemetry.pop();
+    if (!record) {
+      return false;
+    }
+    const std::string_view spacecraft = directory_.spacecraft_name(record->spacecraft);
+    if ((record->topics & runtime::kTopicAttitude) != 0) {
+      count_unsent(attitude_.write(dds::to_attitude(*record, spacecraft, service_)));
+    }
+    if ((record->topics & runtime::kTopicMomentum) != 0) {
+      count_unsent(momentum_.write(dds::to_momentum(*record, spacecraft, service_)));
+    }
+    ++counts_.telemetry;
+  }
+  return true;
+}
+
+bool Publisher::publish_fleet() {
+  const std::size_t chunks = chunks_of(segment_.fleet_size());
+  if (next_chunk_ == chunks) {
+    // A snapshot is sent whole before a newer one is looked at.
+    const std::uint64_t count = segment_->fleet.read(segment_.fleet_storage(), snapshot_);
+    if (count == 0 || count == fleet_seen_) {
+      return false;
+    }
+    fleet_seen_ = count;
+    next_chunk_ = 0;
+  }
+  runtime::FleetHeader header;
+  std::memcpy(static_cast<void*>(&header), snapshot_.data(), sizeof header);
+  for (int i = 0; i < kFleetBatch && next_chunk_ < chunks; ++i, ++next_chunk_) {
+    const std::size_t first = next_chunk_ * kChunk;
+    const std::size_t count = std::min(kChunk, segment_.fleet_size() - first);
+    members_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      runtime::FleetRecord record;
+      std::memcpy(static_cast<void*>(&record), &snapshot_[runtime::fleet_words(first + k)],
+                  sizeof record);
+      members_[k] = dds::to_member(record);
+    }
+    adstar_FleetState sample{};
+    dds::set_text(sample.service, service_);
+    sample.chunk = static_cast<std::uint32_t>(next_chunk_);
+    sample.step = header.step;
+    sample.time_ns = header.time_ns;
+    sample.first_spacecraft = static_cast<std::uint32_t>(first);
+    sample.members._length = sample.members._maximum = static_cast<std::uint32_t>(count);
+    sample.members._buffer = members_.data();
+    count_unsent(fleet_.write(sample));
+    ++counts_.fleet_chunks;
+  }
+  return next_chunk_ < chunks;
+}
+
+void Publisher::publish_health() {
+  runtime::StatusRecord status;
+  if (const std::uint64_t count = segment_->status.read(status);
+      count > 0 && count != status_seen_) {
+    status_seen_ = count;
+    count_unsent(status_.write(dds::to_sample(status, facts_)));
+  }
+  runtime::TimingRecord timing;
+  if (const std::uint64_t count = segment_->timing.read(timing);
+      count > 0 && count != timing_seen_) {
+    timing_seen_ = count;
+    count_unsent(timing_.write(dds::to_sample(timing, service_)));
+  }
+}
+
+bool Publisher::wait_for_readers(std::chrono::milliseconds timeout) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  const auto left = [&] {
+    return std::max(deadline - std::chrono::steady_clock::now(),
+                    std::chrono::steady_clock::duration::zero());
+  };
+  bool all = attitude_.wait_for_acks(left());
+  all = momentum_.wait_for_acks(left()) && all;
+  all = fleet_.wait_for_acks(left()) && all;
+  all = status_.wait_for_acks(left()) && all;
+  all = timing_.wait_for_acks(left()) && all;
+  return statuses_.writer().wait_for_acks(left()) && all;
+}
+
+}  // namespace adstar::bridge

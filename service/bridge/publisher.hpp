@@ -1,0 +1,71 @@
+#pragma once
+// What adstard left in the shared memory becomes samples on the network. One round is bounded, so
+// that no ring keeps the others waiting.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "service/bridge/directory.hpp"
+#include "service/bridge/options.hpp"
+#include "service/bridge/status_writer.hpp"
+#include "service/dds/convert.hpp"
+#include "service/dds/writer.hpp"
+#include "service/runtime/shared_segment.hpp"
+#include "service/scene/scene.hpp"
+
+namespace adstar::bridge {
+
+struct PublishedCounts {
+  std::uint64_t verdicts = 0;
+  std::uint64_t telemetry = 0;  ///< records; each is a sample on one topic or two
+  std::uint64_t fleet_chunks = 0;
+  std::uint64_t unsent = 0;  ///< samples that Cyclone had no room for
+};
+
+class Publisher {
+ public:
+  enum class Left { nothing, fleet, more };
+
+  /// Registers the instances of the watched spacecraft.
+  Publisher(const dds::Participant& participant, runtime::MappedSegment& segment,
+            const scene::Scene& scene, const Directory& directory, const Options& options,
+            StatusWriter& statuses);
+
+  /// Publishes at most one batch of everything; says what waits.
+  Left publish_some();
+
+  /// Gives reliable readers a moment to have it all. False when some did not in time.
+  bool wait_for_readers(std::chrono::milliseconds timeout);
+
+  const PublishedCounts& counts() const noexcept { return counts_; }
+
+ private:
+  bool publish_verdicts();
+  bool publish_telemetry();
+  bool publish_fleet();
+  void publish_health();
+  void count_unsent(bool sent) { counts_.unsent += sent ? 0 : 1; }
+
+  runtime::MappedSegment& segment_;
+  const Directory& directory_;
+  StatusWriter& statuses_;
+  std::string service_;
+  dds::ServiceFacts facts_;
+  dds::Writer<adstar_AttitudeState> attitude_;
+  dds::Writer<adstar_MomentumState> momentum_;
+  dds::Writer<adstar_FleetState> fleet_;
+  dds::Writer<adstar_ServiceStatus> status_;
+  dds::Writer<adstar_StepTiming> timing_;
+  PublishedCounts counts_;
+  std::uint64_t fleet_seen_ = 0;
+  std::uint64_t status_seen_ = 0;
+  std::uint64_t timing_seen_ = 0;
+  std::vector<std::uint64_t> snapshot_;      ///< our copy of the fleet slot
+  std::size_t next_chunk_ = 0;               ///< of the snapshot, to be sent
+  std::vector<adstar_FleetMember> members_;  ///< of one chunk
+};
+
+}  // namespace adstar::bridge

@@ -1,0 +1,194 @@
+#include "service/dds/convert.hpp"
+
+#include <array>
+#include <limits>
+
+namespace adstar::dds {
+
+using runtime::Reason;
+using runtime::Verdict;
+
+static_assert(static_cast<int>(Verdict::accepted) == adstar_VERDICT_ACCEPTED);
+static_assert(static_cast<int>(Verdict::applied) == adstar_VERDICT_APPLIED);
+static_assert(static_cast<int>(Verdict::applied_late) == adstar_VERDICT_APPLIED_LATE);
+static_assert(static_cast<int>(Verdict::clamped) == adstar_VERDICT_CLAMPED);
+static_assert(static_cast<int>(Verdict::superseded) == adstar_VERDICT_SUPERSEDED);
+static_assert(static_cast<int>(Verdict::expired) == adstar_VERDICT_EXPIRED);
+static_assert(static_cast<int>(Verdict::outranked) == adstar_VERDICT_OUTRANKED);
+static_assert(static_cast<int>(Verdict::refused) == adstar_VERDICT_REFUSED);
+static_assert(static_cast<int>(Reason::none) == adstar_REASON_NONE);
+static_assert(static_cast<int>(Reason::unknown_spacecraft) == adstar_REASON_UNKNOWN_SPACECRAFT);
+static_assert(static_cast<int>(Reason::unknown_actuator) == adstar_REASON_UNKNOWN_ACTUATOR);
+static_assert(static_cast<int>(Reason::not_finite) == adstar_REASON_NOT_FINITE);
+static_assert(static_cast<int>(Reason::bad_interval) == adstar_REASON_BAD_INTERVAL);
+static_assert(static_cast<int>(Reason::old_sequence) == adstar_REASON_OLD_SEQUENCE);
+static_assert(static_cast<int>(Reason::no_authority) == adstar_REASON_NO_AUTHORITY);
+static_assert(static_cast<int>(Reason::schedule_full) == adstar_REASON_SCHEDULE_FULL);
+static_assert(static_cast<int>(Reason::capacity) == adstar_REASON_CAPACITY);
+static_assert(runtime::kStartAtNextBeat == adstar_START_AT_NEXT_BEAT);
+static_assert(runtime::kFlagUnresolvedAngle == adstar_FLAG_UNRESOLVED_ANGLE);
+static_assert(runtime::kFlagUnresolvedEdges == adstar_FLAG_UNRESOLVED_EDGES);
+static_assert(runtime::kFlagFinal == adstar_FLAG_FINAL);
+
+namespace {
+
+adstar_Vector3 vector(const std::array<double, 3>& v) noexcept { return {v[0], v[1], v[2]}; }
+
+adstar_Quaternion quaternion(const std::array<double, 4>& q) noexcept {
+  return {q[0], q[1], q[2], q[3]};
+}
+
+adstar_Quantiles quantiles(const runtime::QuantilesRecord& q) noexcept {
+  return {q.count, q.p50_ns, q.p99_ns, q.p99_9_ns, q.max_ns};
+}
+
+// Read as a number: the value may lie outside the enumeration.
+template <class Enumeration>
+std::uint32_t number(const Enumeration& value) noexcept {
+  static_assert(sizeof value == sizeof(std::uint32_t));
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+std::uint32_t clip32(std::uint64_t count) noexcept {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::uint32_t>::max();
+  return static_cast<std::uint32_t>(count < kMost ? count : kMost);
+}
+
+}  // namespace
+
+runtime::CommandRecord to_record(const adstar_TorqueCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept {
+  runtime::CommandRecord record;
+  record.commander = {sample.commander.high, sample.commander.low};
+  record.sequence = sample.sequence_number;
+  record.spacecraft = spacecraft;
+  record.actuator = actuator;
+  record.priority = sample.priority;
+  record.start_ns = sample.start_time_ns;
+  record.end_ns = sample.end_time_ns;
+  record.duration_ns = sample.duration_ns;
+  record.torque_n_m = {sample.torque_n_m.x, sample.torque_n_m.y, sample.torque_n_m.z};
+  return record;
+}
+
+adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string_view spacecraft,
+                               std::string_view actuator, std::string_view service) noexcept {
+  adstar_CommandStatus sample{};
+  set_text(sample.spacecraft, spacecraft);
+  set_text(sample.actuator, actuator);
+  sample.commander = {record.commander.high, record.commander.low};
+  set_text(sample.service, service);
+  sample.sequence_number = record.sequence;
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.verdict = static_cast<adstar_Verdict>(record.verdict);
+  sample.reason = static_cast<adstar_RefusalReason>(record.reason);
+  sample.priority = record.priority;
+  sample.effective_start_time_ns = record.start_ns;
+  sample.effective_end_time_ns = record.end_ns;
+  sample.torque_applied_n_m = vector(record.torque_n_m);
+  return sample;
+}
+
+adstar_AttitudeState to_attitude(const runtime::TelemetryRecord& record,
+                                 std::string_view spacecraft, std::string_view service) noexcept {
+  adstar_AttitudeState sample{};
+  set_text(sample.spacecraft, spacecraft);
+  set_text(sample.service, service);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.attitude_body_to_inertial = quaternion(record.q_IB);
+  sample.angular_velocity_body_rad_s = vector(record.omega_B_rad_s);
+  sample.flags = record.flags;
+  return sample;
+}
+
+adstar_MomentumState to_momentum(const runtime::TelemetryRecord& record,
+                                 std::string_view spacecraft, std::string_view service) noexcept {
+  adstar_MomentumState sample{};
+  set_text(sample.spacecraft, spacecraft);
+  set_text(sample.service, service);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.momentum_inertial_n_m_s = vector(record.H_I_n_m_s);
+  sample.momentum_body_n_m_s = vector(record.Pi_B_n_m_s);
+  sample.rotational_energy_j = record.rotational_energy_j;
+  sample.work_j = record.work_j;
+  sample.energy_residual_j = record.energy_residual_j;
+  sample.momentum_residual_inertial_n_m_s = vector(record.momentum_residual_I_n_m_s);
+  sample.flags = record.flags;
+  return sample;
+}
+
+adstar_FleetMember to_member(const runtime::FleetRecord& record) noexcept {
+  adstar_FleetMember member{};
+  member.attitude_body_to_inertial = quaternion(record.q_IB);
+  member.angular_velocity_body_rad_s = vector(record.omega_B_rad_s);
+  member.momentum_inertial_n_m_s = vector(record.H_I_n_m_s);
+  member.rotational_energy_j = record.rotational_energy_j;
+  member.energy_residual_j = record.energy_residual_j;
+  member.flags = static_cast<std::uint32_t>(record.flags);
+  return member;
+}
+
+adstar_StepTiming to_sample(const runtime::TimingRecord& record,
+                            std::string_view service) noexcept {
+  adstar_StepTiming sample{};
+  set_text(sample.service, service);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.wake_up_lateness = quantiles(record.wake_up_lateness);
+  sample.tick_body = quantiles(record.tick_body);
+  sample.late_beats = record.late_beats;
+  sample.overruns = record.overruns;
+  sample.missed_beats = record.missed_beats;
+  sample.fifo_scheduling = record.fifo_scheduling != 0;
+  sample.memory_locked = record.memory_locked != 0;
+  sample.cpu_pinned = record.cpu_pinned != 0;
+  return sample;
+}
+
+adstar_ServiceStatus to_sample(const runtime::StatusRecord& record,
+                               const ServiceFacts& facts) noexcept {
+  adstar_ServiceStatus sample{};
+  set_text(sample.service, facts.service);
+  sample.instance_high = facts.instance.high;
+  sample.instance_low = facts.instance.low;
+  sample.started_utc_ns = facts.started_utc_ns;
+  sample.state = record.stopped != 0 ? adstar_SERVICE_STOPPED : adstar_SERVICE_RUNNING;
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.step_length_ns = facts.step_length_ns;
+  set_text(sample.pace, facts.pace);
+  set_text(sample.scheme, facts.scheme);
+  sample.spacecraft = facts.spacecraft;
+  sample.unresolved_spacecraft = clip32(record.unresolved_spacecraft);
+  sample.worst_momentum_residual_relative = record.worst_momentum_residual_relative;
+  sample.commands_received = record.commands_received;
+  sample.commands_refused = record.commands_refused;
+  sample.commands_lost = record.commands_lost;
+  sample.verdicts_lost = record.verdicts_lost;
+  sample.telemetry_lost = record.telemetry_lost;
+  sample.bridge_restarts = clip32(record.bridge_restarts);
+  return sample;
+}
+
+std::optional<Verdict> verdict_of(const adstar_CommandStatus& sample) noexcept {
+  const std::uint32_t value = number(sample.verdict);
+  if (value > static_cast<std::uint32_t>(Verdict::refused)) {
+    return std::nullopt;
+  }
+  return static_cast<Verdict>(value);
+}
+
+std::optional<Reason> reason_of(const adstar_CommandStatus& sample) noexcept {
+  const std::uint32_t value = number(sample.reason);
+  if (value > static_cast<std::uint32_t>(Reason::capacity)) {
+    return std::nullopt;
+  }
+  return static_cast<Reason>(value);
+}
+
+}  // namespace adstar::dds

@@ -1,0 +1,63 @@
+#pragma once
+// One DDS domain participant with its publisher and subscriber, confined to one network interface.
+//
+// The configuration is given in code: CYCLONEDDS_URI is not read. Every socket is made with the
+// domain, bound to the interface before there is a participant to talk to, and checked again on
+// demand.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <dds/dds.h>
+
+#include "service/dds/device_binding.hpp"
+#include "service/dds/entity.hpp"
+
+namespace adstar::dds {
+
+struct ParticipantOptions {
+  std::uint32_t domain = 0;
+  std::string interface = "lo";
+  std::string partition;  ///< empty: the default partition
+};
+
+/// At most one per domain and process. Must outlive its readers, writers and wait sets.
+class Participant {
+ public:
+  /// Throws Error: no such interface, a domain out of range, a socket that cannot be confined, no
+  /// resources.
+  explicit Participant(ParticipantOptions options);
+  ~Participant();
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  /// Binds what sockets were opened since, and verifies all; returns how many. Call once the
+  /// entities are made.
+  std::size_t bind_sockets_to_interface();
+
+  dds_entity_t handle() const noexcept { return participant_.handle(); }
+  dds_entity_t publisher() const noexcept { return publisher_.handle(); }
+  dds_entity_t subscriber() const noexcept { return subscriber_.handle(); }
+  const ParticipantOptions& options() const noexcept { return options_; }
+
+ private:
+  // The library goes when the last participant of the process has gone: a security plugin that is
+  // alive when main returns can crash the process.
+  struct LibraryUse {
+    LibraryUse();
+    ~LibraryUse();
+    LibraryUse(const LibraryUse&) = delete;
+    LibraryUse& operator=(const LibraryUse&) = delete;
+  };
+
+  ParticipantOptions options_;
+  std::vector<SocketId> foreign_sockets_;
+  LibraryUse library_;
+  Entity domain_;
+  Entity participant_;
+  Entity publisher_;
+  Entity subscriber_;
+};
+
+}  // namespace adstar::dds

@@ -1,0 +1,32 @@
+#pragma once
+// The few quality-of-service choices that our topics make, as a plain struct.
+
+#include <cstdint>
+#include <memory>
+
+#include <dds/dds.h>
+
+namespace adstar::dds {
+
+enum class Reliability { best_effort, reliable };
+enum class Durability { volatile_, transient_local };
+
+struct Qos {
+  Reliability reliability = Reliability::reliable;
+  Durability durability = Durability::volatile_;
+  std::int32_t depth = 1;  ///< KEEP_LAST
+  /// Bound on instances and on samples altogether; only for best-effort readers, because a reliable
+  /// reader that rejects a sample stalls the receive thread.
+  std::int32_t limit = DDS_LENGTH_UNLIMITED;
+};
+
+using QosHandle = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+/// max_blocking_time is 0: no write ever waits. A late joiner gets the last sample of an instance,
+/// whatever the depth.
+QosHandle make_qos(const Qos& qos);
+
+/// For publishers and subscribers; an empty partition is DDS's default one.
+QosHandle make_partition_qos(const char* partition);
+
+}  // namespace adstar::dds

@@ -1,0 +1,51 @@
+#pragma once
+// Every topic, a row each: C++ type, descriptor, name, QoS of the writer, QoS of the reader.
+// To add a topic, add its IDL type and a row. Why each QoS is as it is: service/README.md.
+
+#include <command.h>
+#include <health.h>
+#include <telemetry.h>
+#include <tuple>
+
+#include <dds/dds.h>
+
+#include "service/dds/qos.hpp"
+
+namespace adstar::dds {
+
+template <class T>
+struct Topic {
+  const dds_topic_descriptor_t* descriptor;
+  const char* name;
+  Qos writer;
+  Qos reader;
+};
+
+/// The newest value, for late joiners too.
+inline constexpr Qos kLatest{Reliability::reliable, Durability::transient_local, 1};
+/// Answers: none may be displaced by the next one on its way; a late joiner gets the last.
+inline constexpr Qos kAnswers{Reliability::reliable, Durability::transient_local, 64};
+inline constexpr Qos kCommandsOut{Reliability::reliable, Durability::volatile_, 64};
+/// Best effort matches reliable writers too, and cannot be wedged by a forged heartbeat. Bounded
+/// against floods of random keys; room for several commanders of every spacecraft in a fleet of
+/// 10,000.
+inline constexpr Qos kCommandsIn{Reliability::best_effort, Durability::volatile_, 64, 65'536};
+
+// clang-format off
+inline constexpr std::tuple kTopics{
+    Topic<adstar_TorqueCommand>{&adstar_TorqueCommand_desc, "adstar/torque_command",  kCommandsOut, kCommandsIn},
+    Topic<adstar_CommandStatus>{&adstar_CommandStatus_desc, "adstar/command_status",  kAnswers,     kAnswers},
+    Topic<adstar_AttitudeState>{&adstar_AttitudeState_desc, "adstar/attitude_state",  kLatest,      kLatest},
+    Topic<adstar_MomentumState>{&adstar_MomentumState_desc, "adstar/momentum_state",  kLatest,      kLatest},
+    Topic<adstar_FleetState>{   &adstar_FleetState_desc,    "adstar/fleet_state",     kLatest,      kLatest},
+    Topic<adstar_ServiceStatus>{&adstar_ServiceStatus_desc, "adstar/service_status",  kLatest,      kLatest},
+    Topic<adstar_StepTiming>{   &adstar_StepTiming_desc,    "adstar/step_timing",     kLatest,      kLatest},
+    Topic<adstar_ServiceRoster>{&adstar_ServiceRoster_desc, "adstar/service_roster",  kLatest,      kLatest}};
+// clang-format on
+
+template <class T>
+constexpr const Topic<T>& topic_of() {
+  return std::get<Topic<T>>(kTopics);
+}
+
+}  // namespace adstar::dds

@@ -1,0 +1,36 @@
+#pragma once
+// The sections of a scene, a reader each. All complaints go to the keys' Complaints.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/scene/keys.hpp"
+#include "service/scene/scene.hpp"
+
+namespace adstar::scene {
+
+/// step_ns stays zero when the file gives none that is good.
+Simulation read_simulation(Keys& root);
+
+/// [[spacecraft]] in order, fleets unfolded.
+struct Spacecrafts {
+  std::vector<Spacecraft> spacecraft;
+  std::vector<std::string> names;  ///< also of spacecraft that were refused
+  bool every_name_known =
+      true;  ///< false when a name is missing, so that "unknown" would be a guess
+};
+Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Tables tables);
+
+Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fleet);
+Service read_service(Keys& root);
+Dds read_dds(Keys& root);
+Log read_log(Keys& root);
+
+/// "2026-01-01T00:00:00[.5]" in that scale, of a TOML date-time or a string; as Simulation::epoch.
+enum class TimeScale { utc, tai };
+std::optional<std::string> read_epoch(const Value& value, TimeScale scale);
+
+}  // namespace adstar::scene

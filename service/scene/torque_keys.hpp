@@ -1,0 +1,36 @@
+#pragma once
+// [[spacecraft.torque]]: what a block of the scene makes for each spacecraft of its fleet.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/scene/fleet.hpp"
+#include "service/scene/scene.hpp"
+
+namespace adstar::scene {
+
+struct ActuatorPlan {
+  std::string name;
+  Place name_place;
+  std::string name_path;
+  RangedVector max_torque_n_m;
+};
+
+struct TorquePlan {
+  std::function<Torque<double>(Draws&)> make;  ///< empty when the block was refused
+  std::optional<ActuatorPlan> actuator;
+  bool drawn = false;
+};
+
+struct TorqueContext {
+  const std::filesystem::path& scene_file;
+  Tables tables;
+};
+
+/// The models of one spacecraft; `value` is its "torque", which may be absent.
+std::vector<TorquePlan> read_torques(const Value& value, const TorqueContext& context);
+
+}  // namespace adstar::scene
