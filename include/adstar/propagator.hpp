@@ -82,13 +82,18 @@ bool is_zero(const Vec3<T>& v) {
   return v == Vec3<T>{};
 }
 
+/// |x| + |y| + |z|: a bound of the norm that needs no root.
+template <class T>
+T sum_of_magnitudes(const Vec3<T>& v) {
+  using std::abs;
+  return abs(v.x) + abs(v.y) + abs(v.z);
+}
+
 /// ∫|tau| dt over the segment, at most.
 template <class T>
 T impulse_bound(const Segment<T>& s, const T& length_s) {
-  using std::max;
   const auto largest = [&](const Ramp<T>& ramp) {
-    return is_zero(ramp.slope) ? norm(ramp.start)
-                               : max(norm(ramp.start), norm(ramp.start + length_s * ramp.slope));
+    return sum_of_magnitudes(ramp.start) + length_s * sum_of_magnitudes(ramp.slope);
   };
   return length_s * (largest(s.body) + largest(s.inertial) + s.varying_bound);
 }
@@ -156,9 +161,12 @@ StepReport advance(const RigidBody<T>& body, State<T>& state, std::span<const To
     }
     const T length_s = seconds<T>(next_ns - t_ns);
     const detail::Segment<T> segment = detail::make_segment(torques, t_ns);
-    const SubstepCount count =
-        count_substeps(body, body_momentum(state), detail::impulse_bound(segment, length_s),
-                       length_s, T(Scheme::kStageReach), limits);
+    const T impulse = detail::impulse_bound(segment, length_s);
+    const T reach = T(Scheme::kStageReach);
+    SubstepCount count;
+    if (!surely_one_part(body, state.H_I.value(), impulse, length_s, reach, limits)) {
+      count = count_substeps(body, body_momentum(state), impulse, length_s, reach, limits);
+    }
     const Quat<T> q_before = state.q_IB;
     detail::run_segment<Scheme>(body, state, torques, segment, t_ns, length_s, count.parts);
     report.parts += count.parts;

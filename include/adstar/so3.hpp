@@ -78,6 +78,9 @@ inline constexpr double kSmallAngleRad = 0.5;
 template <class T>
 class Rotation {
  public:
+  /// psi = 0.
+  Rotation() : A_(1), B_(T(0.5)), E_(T(1) / T(6)), g_(T(1) / T(12)), C_(1), half_S_(T(0.5)) {}
+
   explicit Rotation(const Vec3<T>& psi) : psi_(psi), s_(squared_norm(psi)) {
     if constexpr (std::is_same_v<T, double>) {
       if (s_ <= kTinyAngleRad * kTinyAngleRad) {
@@ -157,7 +160,7 @@ class Rotation {
   }
 
   Vec3<T> psi_;
-  T s_, A_, B_, E_, g_, C_, half_S_;
+  T s_{}, A_, B_, E_, g_, C_, half_S_;
 };
 
 /// hat(v) w = v × w

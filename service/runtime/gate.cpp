@@ -135,7 +135,9 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
     return;
   }
   for (std::uint32_t entry = actuator.head; entry != kNone; entry = pool_[entry].next) {
-    if (pool_[entry].verdict.priority > command.priority) {
+    const VerdictRecord& other = pool_[entry].verdict;
+    // What has ended stays listed until begin_step; it holds nothing.
+    if (other.priority > command.priority && other.end_ns > beat.t_ns) {
       verdict.verdict = Verdict::outranked;
       conclude(*stream, verdict);
       return;
@@ -164,18 +166,25 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
   }
 }
 
+/// Whether it gives way wholly to a newer command of that rank and start; else it is cut there.
+bool CommandGate::displaced(const Live& live, std::int32_t priority,
+                            std::int64_t start_ns) noexcept {
+  const bool below = live.verdict.priority < priority;
+  return live.verdict.start_ns >= start_ns || (below && !live.begun);
+}
+
 /// Whether a command of that rank and start finds a place, before anything is changed.
 Reason CommandGate::make_room(const Actuator& actuator, std::int32_t priority,
                               std::int64_t start_ns, bool waits) const noexcept {
-  if (free_ == kNone) {
-    return Reason::capacity;
-  }
   std::size_t waiting = waits ? 1 : 0;
+  bool has_place = free_ != kNone;
   for (std::uint32_t entry = actuator.head; entry != kNone; entry = pool_[entry].next) {
-    const Live& live = pool_[entry];
-    const bool stays =
-        !live.begun && live.verdict.priority == priority && live.verdict.start_ns < start_ns;
-    waiting += stays ? 1 : 0;
+    const bool stays = !displaced(pool_[entry], priority, start_ns);
+    waiting += stays && !pool_[entry].begun ? 1 : 0;
+    has_place = has_place || !stays;
+  }
+  if (!has_place) {
+    return Reason::capacity;
   }
   return waiting > kMaxWaiting ? Reason::schedule_full : Reason::none;
 }
@@ -188,15 +197,14 @@ void CommandGate::displace(Actuator& actuator, std::int32_t priority, std::int64
   while (*link != kNone) {
     const std::uint32_t entry = *link;
     Live& live = pool_[entry];
-    const bool below = live.verdict.priority < priority;
-    if (live.verdict.start_ns < start_ns && (live.begun || !below)) {
+    if (!displaced(live, priority, start_ns)) {
       live.verdict.end_ns = std::min(live.verdict.end_ns, start_ns);
       link = &live.next;
       continue;
     }
     if (!live.begun) {
       VerdictRecord verdict = live.verdict;
-      verdict.verdict = below ? Verdict::outranked : Verdict::superseded;
+      verdict.verdict = live.verdict.priority < priority ? Verdict::outranked : Verdict::superseded;
       verdict.step = beat.step;
       verdict.time_ns = beat.t_ns;
       conclude(memory_.at(live.stream), verdict);

@@ -75,6 +75,7 @@ class CommandGate {
   void put(const VerdictRecord& verdict) noexcept;
   void conclude(Stream& stream, const VerdictRecord& verdict) noexcept;
   bool repeat(const Stream& stream, const Actuator& actuator, std::uint64_t sequence) noexcept;
+  static bool displaced(const Live& live, std::int32_t priority, std::int64_t start_ns) noexcept;
   Reason make_room(const Actuator& actuator, std::int32_t priority, std::int64_t start_ns,
                    bool waits) const noexcept;
   void displace(Actuator& actuator, std::int32_t priority, std::int64_t start_ns,

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "adstar/torques/frame.hpp"
 
 namespace adstar::runtime {
 namespace {
+
+constexpr double kHuge = std::numeric_limits<double>::max();
 
 bool all_finite(const std::array<double, 3>& v) noexcept {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
@@ -32,6 +35,23 @@ bool interval(const CommandRecord& command, std::int64_t now_ns, Judgement& resu
   return at_once || command.end_ns > asked_start;
 }
 
+/// Scales the whole vector to its limits.
+void clamp(std::array<double, 3>& torque, const std::array<double, 3>& limits,
+           double largest) noexcept {
+  // Unit length first: limit / 1e308 would be a subnormal number, too coarse to scale by.
+  double scale = kHuge;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    torque[axis] /= largest;
+    if (torque[axis] != 0) {
+      scale = std::min(scale, limits[axis] / std::fabs(torque[axis]));
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // The product may round one unit past the limit.
+    torque[axis] = std::clamp(scale * torque[axis], -limits[axis], limits[axis]);
+  }
+}
+
 }  // namespace
 
 Judgement judge(const CommandRecord& command, const Vec3<double>& max_torque_n_m,
@@ -50,27 +70,23 @@ Judgement judge(const CommandRecord& command, const Vec3<double>& max_torque_n_m
     result.verdict = Verdict::expired;
     return result;
   }
-  const double limits[] = {max_torque_n_m.x, max_torque_n_m.y, max_torque_n_m.z};
-  double scale = 1;
+  const std::array<double, 3> limits{max_torque_n_m.x, max_torque_n_m.y, max_torque_n_m.z};
+  double largest = 0;
+  bool beyond = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double asked = std::fabs(command.torque_n_m[axis]);
     if (asked > 0 && limits[axis] == 0) {
       result.reason = Reason::no_authority;
       return result;
     }
-    if (asked > limits[axis]) {
-      scale = std::min(scale, limits[axis] / asked);
-    }
+    largest = std::max(largest, asked);
+    beyond = beyond || asked > limits[axis];
   }
   const bool late = command.start_ns != kStartAtNextBeat && command.start_ns < now_ns;
   result.verdict = late ? Verdict::applied_late : Verdict::applied;
-  if (scale < 1) {
+  if (beyond) {
     result.verdict = Verdict::clamped;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // The product may round one unit past the limit.
-      result.torque_n_m[axis] =
-          std::clamp(scale * command.torque_n_m[axis], -limits[axis], limits[axis]);
-    }
+    clamp(result.torque_n_m, limits, largest);
   }
   return result;
 }

@@ -58,6 +58,7 @@ class RigidBody {
            inertia_B(1, 0), inertia_B(2, 0), inertia_B(2, 1)},
         J_inverse_(inverse(J_)),
         moments_(principal_moments(J_)),
+        inverse_moments_{T(1) / moments_[0], T(1) / moments_[1], T(1) / moments_[2]},
         diagonal_(J_.xy == T(0) && J_.xz == T(0) && J_.yz == T(0)) {}
 
   /// omega_B = J_B⁻¹ Pi_B [rad/s]
@@ -73,6 +74,8 @@ class RigidBody {
   T energy(const Vec3<T>& Pi_B) const { return T(0.5) * dot(angular_velocity(Pi_B), Pi_B); }
   /// Ascending [kg m²].
   const std::array<T, 3>& moments() const { return moments_; }
+  /// One over moments(): descending.
+  const std::array<T, 3>& inverse_moments() const { return inverse_moments_; }
 
  private:
   static Sym3<T> inverse(const Sym3<T>& m) {
@@ -95,6 +98,7 @@ class RigidBody {
   Sym3<T> J_;
   Sym3<T> J_inverse_;
   std::array<T, 3> moments_;
+  std::array<T, 3> inverse_moments_;
   bool diagonal_;
 };
 

@@ -115,11 +115,22 @@ struct Coadjoint {
   template <int I, class T, class Torque>
   static void stage(const RigidBody<T>& body, const Quat<T>& q_n, const Vec3<T>& Pi_n, const T& h,
                     const Torque& torque, Slopes<T>& k) {
-    constexpr auto earlier = std::make_integer_sequence<int, I>{};
-    if constexpr (I == 0 && Torque::kFree) {
-      k.psi[0] = body.angular_velocity(Pi_n);  // psi = 0
-      return;
+    if constexpr (I == 0) {
+      // psi = 0: exp and dexpinv are the identity.
+      const Vec3<T> omega_B = body.angular_velocity(Pi_n);
+      k.psi[0] = omega_B;
+      if constexpr (!Torque::kFree) {
+        const Rotation<T> none;
+        const TorqueSample<T> tau = torque.function(Stage<T>{T(0), omega_B, q_n, none});
+        k.body_impulse[0] = tau.body;
+        k.work[0] = dot(omega_B, tau.body);
+        if constexpr (Torque::kInertial) {
+          k.inertial_impulse[0] = tau.inertial;
+          k.work[0] = k.work[0] + dot(omega_B, rotate_inverse(q_n, tau.inertial));
+        }
+      }
     } else {
+      constexpr auto earlier = std::make_integer_sequence<int, I>{};
       const Rotation<T> turn(combined<I>(h, k.psi, earlier));
       // Pi_B = exp(-psi) (R_nᵀ (H_n + G) + J)
       Vec3<T> Pi_stage = Pi_n;
@@ -132,8 +143,8 @@ struct Coadjoint {
       const Vec3<T> omega_B = body.angular_velocity(turn.exp_inverse(Pi_stage));
       k.psi[I] = turn.dexpinv_minus(omega_B);
       if constexpr (!Torque::kFree) {
-        const TorqueSample<T> tau =
-            torque.function(Stage<T>{h * Tableau::c[I].template as<T>(), omega_B, q_n, turn});
+        const T since = h * Tableau::c[I].template as<T>();
+        const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q_n, turn});
         k.body_impulse[I] = turn.exp(tau.body);
         k.work[I] = dot(omega_B, tau.body);
         if constexpr (Torque::kInertial) {
@@ -146,8 +157,7 @@ struct Coadjoint {
 
   /// h Σ_{j<I} a_Ij k_j, zero entries left out at compile time.
   template <int I, class T, int... J>
-  static Vec3<T> combined(const T& h, [[maybe_unused]] const Vec3<T>* k,
-                          std::integer_sequence<int, J...>) {
+  static Vec3<T> combined(const T& h, const Vec3<T>* k, std::integer_sequence<int, J...>) {
     Vec3<T> sum{};
     (accumulate<!Tableau::a[I][J].is_zero()>(sum, h, Tableau::a[I][J], k[J]), ...);
     return sum;

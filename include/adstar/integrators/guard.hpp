@@ -34,8 +34,7 @@ T angular_speed_bound_squared(const RigidBody<T>& body, const Vec3<T>& Pi_B, con
   using std::sqrt;
   // Not max(): what is no number must stay none, or a ruined momentum would count as a slow one.
   const auto not_negative = [](const T& x) { return x < T(0) ? T(0) : x; };
-  const auto& J = body.moments();
-  const T a1 = T(1) / J[0], a2 = T(1) / J[1], a3 = T(1) / J[2];
+  const auto& [a1, a2, a3] = body.inverse_moments();
   T P_squared = squared_norm(Pi_B);
   T two_E = T(2) * body.energy(Pi_B);
   if (!(impulse <= T(0))) {
@@ -50,6 +49,16 @@ T angular_speed_bound_squared(const RigidBody<T>& body, const Vec3<T>& Pi_B, con
   return not_negative(inner > outer || inner != inner ? inner : outer);
 }
 
+/// True only if one part will do, from |omega| ≤ (|H| + impulse)/J_min alone: no root, no rotation.
+/// Most steps are so far from the limit.
+template <class T>
+bool surely_one_part(const RigidBody<T>& body, const Vec3<T>& H_I, const T& impulse, const T& h,
+                     const T& stage_reach, const StepLimits& limits) {
+  const T turn = h * stage_reach * body.inverse_moments()[0];
+  const T limit = T(limits.substep_angle_rad);
+  return turn * turn * T(2) * (squared_norm(H_I) + impulse * impulse) <= limit * limit;
+}
+
 struct SubstepCount {
   std::int64_t parts = 1;
   bool within_limit = true;
@@ -61,8 +70,8 @@ template <class T>
 SubstepCount count_substeps(const RigidBody<T>& body, const Vec3<T>& Pi_B, const T& impulse,
                             const T& h, const T& stage_reach, const StepLimits& limits) {
   const T reach = h * stage_reach;
-  const T angle_squared = reach * reach * angular_speed_bound_squared(body, Pi_B, impulse);
   const T limit = T(limits.substep_angle_rad);
+  const T angle_squared = reach * reach * angular_speed_bound_squared(body, Pi_B, impulse);
   if (angle_squared <= limit * limit) {
     return {};
   }
