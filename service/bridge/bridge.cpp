@@ -142,10 +142,11 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
     intake.check();
     const PublishedCounts& counts = publisher.counts();
     spdlog::info(
-        "stopped: {} commands handed over, {} refused here, {} lost; {} verdicts, {} telemetry "
+        "stopped: {} commands handed over, {} refused here, {} too old, {} lost; {} verdicts, {} "
+        "telemetry "
         "records, {} fleet chunks published, {} samples unsent",
-        intake.handed_over(), intake.refused(), segment->commands_lost.load(), counts.verdicts,
-        counts.telemetry, counts.fleet_chunks, counts.unsent);
+        intake.handed_over(), intake.refused(), intake.stale(), segment->commands_lost.load(),
+        counts.verdicts, counts.telemetry, counts.fleet_chunks, counts.unsent);
   }
   if (!publisher.wait_for_readers(kLastAcks)) {
     spdlog::warn("not every reader acknowledged the last samples in {} ms", kLastAcks.count());

@@ -1,5 +1,7 @@
 #include "service/bridge/command_intake.hpp"
 
+#include <time.h>
+
 #include <spdlog/spdlog.h>
 
 #include "service/dds/convert.hpp"
@@ -7,6 +9,17 @@
 #include "service/dds/verdict_text.hpp"
 
 namespace adstar::bridge {
+namespace {
+
+constexpr std::int64_t kMostAge_ns = 2'000'000'000;
+
+std::int64_t clock_ns(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
+}  // namespace
 
 CommandIntake::CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
                              const Directory& directory, const OtherServices& others,
@@ -42,15 +55,37 @@ void CommandIntake::listen() noexcept {
   try {
     while (!ending_.load()) {
       wait_set_.wait(std::chrono::seconds(1));
-      while (!ending_.load() &&
-             reader_.take([this](const adstar_TorqueCommand& command, const dds_sample_info_t&) {
-               take(command);
-             }) > 0) {}
+      while (!ending_.load() && reader_.take([this](const adstar_TorqueCommand& command,
+                                                    const dds_sample_info_t& info) {
+        if (!is_stale(command, info)) {
+          take(command);
+        }
+      }) > 0) {}
     }
   } catch (...) {
     failure_ = std::current_exception();
     failed_.store(true);
   }
+}
+
+/// What waited in a socket while this process, or the one that wrote it, stood still is nobody's
+/// wish any more. It is not answered: a commander that still means it repeats it with a stamp of
+/// now.
+bool CommandIntake::is_stale(const adstar_TorqueCommand& command, const dds_sample_info_t& info) {
+  const std::int64_t age_ns = clock_ns(CLOCK_REALTIME) - info.source_timestamp;
+  if (age_ns <= kMostAge_ns) {
+    return false;
+  }
+  stale_.fetch_add(1);
+  static dds::RateLimit limit(1);
+  if (limit.admit()) {
+    spdlog::warn(
+        "ignored a command for '{}' that was written {:.1f} s ago by its stamp; if it was sent "
+        "just "
+        "now, set the clocks of the two machines",
+        dds::text_of(command.spacecraft), static_cast<double>(age_ns) * 1e-9);
+  }
+  return true;
 }
 
 void CommandIntake::take(const adstar_TorqueCommand& command) {
@@ -67,7 +102,9 @@ void CommandIntake::take(const adstar_TorqueCommand& command) {
     refuse(command, runtime::Reason::unknown_actuator);
     return;
   }
-  if (segment_.commands.push(dds::to_record(command, *spacecraft, *actuator))) {
+  runtime::CommandRecord record = dds::to_record(command, *spacecraft, *actuator);
+  record.received_ns = clock_ns(CLOCK_MONOTONIC);
+  if (segment_.commands.push(record)) {
     handed_over_.fetch_add(1);
     return;
   }

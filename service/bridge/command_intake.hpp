@@ -33,9 +33,11 @@ class CommandIntake {
 
   std::uint64_t handed_over() const noexcept { return handed_over_.load(); }
   std::uint64_t refused() const noexcept { return refused_.load(); }
+  std::uint64_t stale() const noexcept { return stale_.load(); }
 
  private:
   void listen() noexcept;
+  bool is_stale(const adstar_TorqueCommand& command, const dds_sample_info_t& info);
   void take(const adstar_TorqueCommand& command);
   void refuse(const adstar_TorqueCommand& command, runtime::Reason reason);
 
@@ -48,6 +50,7 @@ class CommandIntake {
   dds::WaitSet wait_set_;
   std::atomic<std::uint64_t> handed_over_{0};
   std::atomic<std::uint64_t> refused_{0};
+  std::atomic<std::uint64_t> stale_{0};
   std::atomic<bool> ending_{false};
   std::atomic<bool> failed_{false};
   std::exception_ptr failure_;  ///< written before failed_

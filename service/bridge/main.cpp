@@ -2,18 +2,16 @@
 
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <string>
 
 #include <fmt/format.h>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "service/bridge/bridge.hpp"
 #include "service/bridge/options.hpp"
 #include "service/bridge/process.hpp"
 #include "service/dds/error.hpp"
+#include "service/log.hpp"
 #include "service/runtime/shared_segment.hpp"
 #include "service/scene/scene.hpp"
 
@@ -21,31 +19,12 @@ namespace {
 
 using namespace adstar;
 
-void set_up_log(const scene::Log& log) {
-  std::shared_ptr<spdlog::logger> logger = spdlog::stderr_logger_mt("bridge");
-  std::string trouble;
-  if (!log.file.empty()) {
-    try {
-      logger = spdlog::basic_logger_mt("bridge-file", log.file, /*truncate=*/false);
-    } catch (const spdlog::spdlog_ex& error) {
-      trouble = error.what();
-    }
-  }
-  spdlog::set_default_logger(logger);
-  spdlog::set_pattern("%Y-%m-%d %H:%M:%S.%e bridge %l: %v");
-  spdlog::set_level(spdlog::level::from_str(log.level));
-  spdlog::flush_on(spdlog::level::trace);
-  if (!trouble.empty()) {
-    spdlog::warn("cannot open [log] file '{}': {}; logging to stderr", log.file, trouble);
-  }
-}
-
 int attach_and_run(const bridge::Options& options) {
   runtime::MappedSegment segment = runtime::MappedSegment::attach(options.segment_fd);
   try {
     const scene::Scene scene =
         scene::parse(bridge::read_whole(options.scene_fd), options.scene_file, scene::Tables::skip);
-    set_up_log(scene.log);
+    set_up_log(scene.log, "bridge");
     return bridge::run(options, scene, segment);
   } catch (const scene::SceneError& error) {
     spdlog::error("{}", error.what());

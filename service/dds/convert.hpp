@@ -3,6 +3,7 @@
 // are characters of fixed length there: always terminated, and what does not fit is reported, not
 // overrun.
 
+#include <algorithm>
 #include <command.h>
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +22,7 @@ namespace adstar::dds {
 template <std::size_t N>
 bool set_text(char (&target)[N], std::string_view text) noexcept {
   const std::size_t length = text.size() < N ? text.size() : N - 1;
-  std::memcpy(target, text.data(), length);
-  std::memset(target + length, 0, N - length);
+  std::fill(std::copy_n(text.data(), length, target), target + N, '\0');
   return length == text.size();
 }
 

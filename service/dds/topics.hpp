@@ -31,17 +31,21 @@ inline constexpr Qos kCommandsOut{Reliability::reliable, Durability::volatile_, 
 /// 10,000.
 inline constexpr Qos kCommandsIn{Reliability::best_effort, Durability::volatile_, 64, 65'536};
 
-// clang-format off
 inline constexpr std::tuple kTopics{
-    Topic<adstar_TorqueCommand>{&adstar_TorqueCommand_desc, "adstar/torque_command",  kCommandsOut, kCommandsIn},
-    Topic<adstar_CommandStatus>{&adstar_CommandStatus_desc, "adstar/command_status",  kAnswers,     kAnswers},
-    Topic<adstar_AttitudeState>{&adstar_AttitudeState_desc, "adstar/attitude_state",  kLatest,      kLatest},
-    Topic<adstar_MomentumState>{&adstar_MomentumState_desc, "adstar/momentum_state",  kLatest,      kLatest},
-    Topic<adstar_FleetState>{   &adstar_FleetState_desc,    "adstar/fleet_state",     kLatest,      kLatest},
-    Topic<adstar_ServiceStatus>{&adstar_ServiceStatus_desc, "adstar/service_status",  kLatest,      kLatest},
-    Topic<adstar_StepTiming>{   &adstar_StepTiming_desc,    "adstar/step_timing",     kLatest,      kLatest},
-    Topic<adstar_ServiceRoster>{&adstar_ServiceRoster_desc, "adstar/service_roster",  kLatest,      kLatest}};
-// clang-format on
+    Topic<adstar_TorqueCommand>{&adstar_TorqueCommand_desc, "adstar/torque_command", kCommandsOut,
+                                kCommandsIn},
+    Topic<adstar_CommandStatus>{&adstar_CommandStatus_desc, "adstar/command_status", kAnswers,
+                                kAnswers},
+    Topic<adstar_AttitudeState>{&adstar_AttitudeState_desc, "adstar/attitude_state", kLatest,
+                                kLatest},
+    Topic<adstar_MomentumState>{&adstar_MomentumState_desc, "adstar/momentum_state", kLatest,
+                                kLatest},
+    Topic<adstar_FleetState>{&adstar_FleetState_desc, "adstar/fleet_state", kLatest, kLatest},
+    Topic<adstar_ServiceStatus>{&adstar_ServiceStatus_desc, "adstar/service_status", kLatest,
+                                kLatest},
+    Topic<adstar_StepTiming>{&adstar_StepTiming_desc, "adstar/step_timing", kLatest, kLatest},
+    Topic<adstar_ServiceRoster>{&adstar_ServiceRoster_desc, "adstar/service_roster", kLatest,
+                                kLatest}};
 
 template <class T>
 constexpr const Topic<T>& topic_of() {

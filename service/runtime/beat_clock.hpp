@@ -2,36 +2,37 @@
 // When the next beat is due: pure arithmetic on a plain struct, so that the policy can be tested
 // without a clock.
 //
-// Beat n is due at base + n·period, from integers, never by adding periods up. Whoever comes more
-// than a period late has missed beats: they are counted, the grid keeps its phase, and simulation
-// time falls behind the wall's.
+// Beat n is due at base + (n + missed)·period, from integers, never by adding periods up. Whoever
+// comes a period late or more has missed beats: they are counted, the grid keeps its phase, and
+// simulation time falls behind the wall's.
 
 #include <cstdint>
 
 namespace adstar::runtime {
 
 struct BeatClock {
-  std::int64_t base_ns = 0;     ///< monotonic time at which beat 0 is due, moved by missed beats
-  std::int64_t period_num = 1;  ///< the period is period_num / period_den [ns]
-  std::int64_t period_den = 1;
+  std::int64_t base_ns = 0;  ///< monotonic time at which beat 0 is due
+  std::int64_t step_ns = 1;
+  std::int64_t rate_millionths = 1'000'000;  ///< the period is step_ns · 10⁶ / rate_millionths [ns]
+  std::uint64_t missed = 0;                  ///< periods by which the grid was moved
 };
 
-/// The period step/rate as a fraction; the rate is taken to a millionth.
+/// The rate is taken to a millionth.
 inline BeatClock make_beat_clock(std::int64_t base_ns, std::int64_t step_ns, double rate) {
-  constexpr std::int64_t kMillionth = 1'000'000;
-  const auto scaled_rate = static_cast<std::int64_t>(rate * 1e6 + 0.5);
-  return {base_ns, step_ns * kMillionth, scaled_rate > 0 ? scaled_rate : 1};
+  const auto millionths = static_cast<std::int64_t>(rate * 1e6 + 0.5);
+  return {base_ns, step_ns, millionths > 0 ? millionths : 1, 0};
 }
 
 /// n·period, rounded down.
 inline std::int64_t beats_to_ns(const BeatClock& clock, std::uint64_t n) {
   __extension__ using Wide = __int128;
-  return static_cast<std::int64_t>(static_cast<Wide>(n) * clock.period_num / clock.period_den);
+  return static_cast<std::int64_t>(static_cast<Wide>(n) * clock.step_ns * 1'000'000 /
+                                   clock.rate_millionths);
 }
 
 /// Monotonic time at which beat n is due [ns].
 inline std::int64_t due_ns(const BeatClock& clock, std::uint64_t n) {
-  return clock.base_ns + beats_to_ns(clock, n);
+  return clock.base_ns + beats_to_ns(clock, n + clock.missed);
 }
 
 /// Whole periods between the moment beat n was due and `now_ns`; moves the grid by as many.
@@ -42,8 +43,9 @@ inline std::uint64_t realign(BeatClock& clock, std::uint64_t n, std::int64_t now
   }
   __extension__ using Wide = __int128;
   const auto missed =
-      static_cast<std::uint64_t>(static_cast<Wide>(late_ns) * clock.period_den / clock.period_num);
-  clock.base_ns += beats_to_ns(clock, missed);
+      static_cast<std::uint64_t>(static_cast<Wide>(late_ns) * clock.rate_millionths /
+                                 (static_cast<Wide>(clock.step_ns) * 1'000'000));
+  clock.missed += missed;
   return missed;
 }
 

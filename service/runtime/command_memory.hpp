@@ -2,9 +2,10 @@
 // What the gate remembers of each stream of commands - one commander on one actuator - so that a
 // repeated sequence number gets the same answer and changes nothing.
 //
-// Fixed memory: a set-associative table made at start. A new stream takes the place of the one in
-// its set that was silent longest and has no command in force or waiting; the choice depends on the
-// command stream alone.
+// Fixed memory: a set-associative table made at start, two sets to choose from for each stream
+// (Azar, Broder, Karlin, Upfal 1999; with one, a few of 10,000 actuators would find theirs full). A
+// new stream takes the place of the one that was silent longest and has no command in force or
+// waiting; the choice depends on the command stream alone.
 
 #include <array>
 #include <cstddef>
@@ -51,20 +52,23 @@ class CommandMemory {
     streams_.resize(sets * kWays);
   }
 
-  /// The stream of that commander on that actuator, new or known; null when its set is full of busy
-  /// ones.
+  /// The stream of that commander on that actuator, new or known; null when both its sets are full
+  /// of busy ones.
   Stream* find(const CommanderId& commander, std::uint32_t actuator, std::uint64_t now) noexcept {
-    Stream* const set = streams_.data() + kWays * set_of(commander, actuator);
+    const std::uint64_t hash = hash_of(commander, actuator);
     Stream* place = nullptr;
-    for (std::size_t way = 0; way < kWays; ++way) {
-      Stream& stream = set[way];
-      if (stream.used && stream.commander == commander && stream.actuator == actuator) {
-        stream.last_heard = now;
-        return &stream;
-      }
-      const bool free = !stream.used || stream.live == 0;
-      if (free && (place == nullptr || rank(stream) < rank(*place))) {
-        place = &stream;
+    for (const std::uint64_t choice : {hash, hash >> 32}) {
+      Stream* const set = streams_.data() + kWays * (choice & (streams_.size() / kWays - 1));
+      for (std::size_t way = 0; way < kWays; ++way) {
+        Stream& stream = set[way];
+        if (stream.used && stream.commander == commander && stream.actuator == actuator) {
+          stream.last_heard = now;
+          return &stream;
+        }
+        const bool free = !stream.used || stream.live == 0;
+        if (free && (place == nullptr || rank(stream) < rank(*place))) {
+          place = &stream;
+        }
       }
     }
     if (place != nullptr) {
@@ -90,13 +94,13 @@ class CommandMemory {
     return stream.used ? stream.last_heard + 1 : 0;
   }
 
-  std::size_t set_of(const CommanderId& commander, std::uint32_t actuator) const noexcept {
+  static std::uint64_t hash_of(const CommanderId& commander, std::uint32_t actuator) noexcept {
     // The finaliser of splitmix64 (Steele, Lea, Flood 2014).
     std::uint64_t z = commander.high ^ (commander.low * 0x9e3779b97f4a7c15U) ^
                       (static_cast<std::uint64_t>(actuator) << 32);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return static_cast<std::size_t>(z ^ (z >> 31)) & (streams_.size() / kWays - 1);
+    return z ^ (z >> 31);
   }
 
   std::vector<Stream> streams_;

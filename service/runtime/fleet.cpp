@@ -67,7 +67,7 @@ TelemetryRecord sample(const Vehicle& vehicle) noexcept {
 double momentum_residual_relative(const Vehicle& vehicle) noexcept {
   const double scale =
       std::max(norm(vehicle.state.H_I.value()), norm(vehicle.state.impulse_I.value()));
-  return scale > 0 ? norm(momentum_residual(vehicle)) / scale : 0;
+  return scale == 0 ? 0 : norm(momentum_residual(vehicle)) / scale;
 }
 
 }  // namespace adstar::runtime

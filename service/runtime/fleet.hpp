@@ -50,7 +50,7 @@ class Fleet {
 /// caller's.
 TelemetryRecord sample(const Vehicle& vehicle) noexcept;
 
-/// |H_I - H_0 - impulse| / max(|H_I|, |impulse|); 0 at rest.
+/// |H_I - H_0 - impulse| / max(|H_I|, |impulse|); 0 at rest, NaN when the momentum is no number.
 double momentum_residual_relative(const Vehicle& vehicle) noexcept;
 
 }  // namespace adstar::runtime

@@ -30,6 +30,7 @@ struct CommandRecord {
   std::int64_t end_ns = 0;                   ///< simulation time, exclusive; 0 with a duration
   std::int64_t duration_ns = 0;              ///< from the effective start; 0 with an end
   std::array<double, 3> torque_n_m{};        ///< in the actuator's frame
+  std::int64_t received_ns = 0;              ///< monotonic clock, by the bridge; 0: not stamped
 };
 
 /// Same values and order as Verdict in idl/command.idl.

@@ -66,11 +66,12 @@ MappedSegment MappedSegment::attach(int fd) {
     throw_errno("mapping the shared segment");
   }
   auto* const segment = static_cast<SharedSegment*>(memory);
-  if (segment->layout != kLayout || total_bytes(segment->fleet_size) != bytes) {
+  const std::uint64_t fleet_size = segment->fleet_size;
+  if (segment->layout != kLayout || fleet_size > bytes || total_bytes(fleet_size) != bytes) {
     munmap(memory, bytes);
     throw std::runtime_error("the shared segment has another layout: adstard is of another build");
   }
-  return {fd, segment, bytes, segment->fleet_size};
+  return {fd, segment, bytes, fleet_size};
 }
 
 MappedSegment::MappedSegment(MappedSegment&& other) noexcept

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <time.h>
 
 namespace adstar::runtime {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::int64_t kMostAge_ns = 2 * kSecond;
 
 std::int64_t monotonic_ns() noexcept {
   timespec now{};
@@ -26,32 +29,33 @@ void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
 }
 
-bool due_at(std::uint64_t step, std::uint64_t every) noexcept {
-  return every != 0 && step % every == 0;
+bool due_at(std::uint64_t step, std::uint64_t every, bool everything) noexcept {
+  return every != 0 && (everything || step % every == 0);
 }
+
+/// The larger; what is no number is the worst of all.
+double worse(double a, double b) noexcept { return a >= b || std::isnan(a) ? a : b; }
 
 }  // namespace
 
 Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
     : segment_(segment),
       step_ns_(scene.simulation.step_ns),
+      last_step_(static_cast<std::uint64_t>(
+          scene.simulation.duration_ns.value_or(std::numeric_limits<std::int64_t>::max()) /
+          step_ns_)),
       pace_(scene.simulation.pace),
       rate_(scene.simulation.rate),
       telemetry_(scene.telemetry),
       fleet_(scene.spacecraft, scene.simulation.scheme, scene.simulation.limits),
       gate_(scene.spacecraft, segment->verdicts),
-      fleet_words_(fleet_words(segment.fleet_size())) {
-  if (scene.simulation.duration_ns) {
-    last_step_ = static_cast<std::uint64_t>(*scene.simulation.duration_ns / step_ns_);
-  }
-}
+      fleet_words_(fleet_words(segment.fleet_size())) {}
 
 void Tick::run(const std::atomic<bool>& stop) noexcept {
   publish(0, true);
   BeatClock clock = make_beat_clock(monotonic_ns(), step_ns_, rate_);
   std::int64_t begun = clock.base_ns;
-  for (std::uint64_t n = 0;
-       !stop.load(std::memory_order_relaxed) && (!last_step_ || n < *last_step_); ++n) {
+  for (std::uint64_t n = 0; !stop.load(std::memory_order_relaxed) && n < last_step_; ++n) {
     if (pace_ == scene::Pace::clock) {
       const std::int64_t due = due_ns(clock, n);
       sleep_until(due);
@@ -63,7 +67,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
         add(report_.missed_beats, missed);
       }
     }
-    beat(n);
+    beat(n, begun);
     const std::int64_t ended = monotonic_ns();
     report_.tick_body.record(ended - begun);
     if (pace_ == scene::Pace::clock && ended - begun > beats_to_ns(clock, 1)) {
@@ -73,14 +77,18 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
   }
 }
 
-void Tick::beat(std::uint64_t n) noexcept {
+void Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
   const Beat now{n, static_cast<std::int64_t>(n) * step_ns_, step_ns_};
   for (int taken = 0; taken < kCommandsPerBeat; ++taken) {
     const std::optional<CommandRecord> command = segment_->commands.pop();
     if (!command) {
       break;
     }
-    gate_.receive(*command, now);
+    // What lay in the ring while this process stood still is nobody's wish any more; who means it
+    // repeats it.
+    if (command->received_ns == 0 || begun_ns - command->received_ns <= kMostAge_ns) {
+      gate_.receive(*command, now);
+    }
   }
   gate_.begin_step(now, fleet_);
 
@@ -103,26 +111,28 @@ void Tick::beat(std::uint64_t n) noexcept {
   publish(n + 1, everything);
 }
 
+std::uint32_t Tick::topics_at(std::uint64_t step, bool everything) const noexcept {
+  return (due_at(step, telemetry_.attitude_every, everything) ? kTopicAttitude : 0U) |
+         (due_at(step, telemetry_.momentum_every, everything) ? kTopicMomentum : 0U);
+}
+
 void Tick::publish(std::uint64_t step, bool everything) noexcept {
-  const std::uint32_t topics =
-      (everything || due_at(step, telemetry_.attitude_every) ? kTopicAttitude : 0U) |
-      (everything || due_at(step, telemetry_.momentum_every) ? kTopicMomentum : 0U);
-  const bool fleet =
-      telemetry_.fleet_every != 0 && (everything || due_at(step, telemetry_.fleet_every));
+  const std::uint32_t topics = topics_at(step, everything);
+  const bool fleet = due_at(step, telemetry_.fleet_every, everything);
   if (topics != 0) {
     double worst = 0;
     for (const std::uint32_t spacecraft : telemetry_.watched) {
       if (!push_sample(spacecraft, topics, 0, step)) {
         add(report_.telemetry_lost, 1);
       }
-      worst = std::max(worst, momentum_residual_relative(fleet_.vehicles()[spacecraft]));
+      worst = worse(worst, momentum_residual_relative(fleet_.vehicles()[spacecraft]));
     }
     if (telemetry_.fleet_every == 0) {
       report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
     }
   }
   if (fleet) {
-    write_fleet(step);
+    write_fleet(step, 0);
   }
   if (topics != 0 || fleet || segment_->verdicts.size() > 0) {
     wake_bridge(*segment_);
@@ -141,7 +151,7 @@ bool Tick::push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint
   return segment_->telemetry.push(record);
 }
 
-void Tick::write_fleet(std::uint64_t step) noexcept {
+void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
   const FleetHeader header{step, static_cast<std::int64_t>(step) * step_ns_,
                            fleet_.vehicles().size()};
   std::uint64_t* word = fleet_words_.data();
@@ -155,10 +165,10 @@ void Tick::write_fleet(std::uint64_t step) noexcept {
                              full.H_I_n_m_s,
                              full.rotational_energy_j,
                              full.energy_residual_j,
-                             full.flags};
+                             full.flags | flags};
     std::memcpy(word, &member, sizeof member);
     word += sizeof member / sizeof *word;
-    worst = std::max(worst, momentum_residual_relative(vehicle));
+    worst = worse(worst, momentum_residual_relative(vehicle));
   }
   report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
   segment_->fleet.write(segment_.fleet_storage(), fleet_words_);
@@ -167,8 +177,9 @@ void Tick::write_fleet(std::uint64_t step) noexcept {
 void Tick::publish_final(int patience_ms) {
   const std::uint64_t step = report_.step.load(std::memory_order_relaxed);
   const std::int64_t patience_ends = monotonic_ns() + patience_ms * (kSecond / 1000);
+  const std::uint32_t topics = topics_at(step, true);
   for (const std::uint32_t spacecraft : telemetry_.watched) {
-    while (!push_sample(spacecraft, kTopicAttitude | kTopicMomentum, kFlagFinal, step)) {
+    while (topics != 0 && !push_sample(spacecraft, topics, kFlagFinal, step)) {
       if (monotonic_ns() > patience_ends) {
         add(report_.telemetry_lost, 1);
         break;
@@ -178,7 +189,7 @@ void Tick::publish_final(int patience_ms) {
     }
   }
   if (telemetry_.fleet_every != 0) {
-    write_fleet(step);
+    write_fleet(step, kFlagFinal);
   }
   wake_bridge(*segment_);
 }

@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "service/runtime/beat_clock.hpp"
@@ -58,15 +57,16 @@ class Tick {
   /// Commands judged in one beat, at most; more wait in the ring for the next.
   static constexpr int kCommandsPerBeat = 1024;
 
-  void beat(std::uint64_t n) noexcept;
+  void beat(std::uint64_t n, std::int64_t begun_ns) noexcept;
   void publish(std::uint64_t step, bool everything) noexcept;
+  std::uint32_t topics_at(std::uint64_t step, bool everything) const noexcept;
   bool push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
                    std::uint64_t step) noexcept;
-  void write_fleet(std::uint64_t step) noexcept;
+  void write_fleet(std::uint64_t step, std::uint32_t flags) noexcept;
 
   MappedSegment& segment_;
   std::int64_t step_ns_;
-  std::optional<std::uint64_t> last_step_;
+  std::uint64_t last_step_;  ///< of the scene's duration, or of what 63 bits of nanoseconds hold
   scene::Pace pace_;
   double rate_;
   scene::Telemetry telemetry_;

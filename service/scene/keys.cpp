@@ -5,6 +5,20 @@
 #include "service/scene/nearest.hpp"
 
 namespace adstar::scene {
+namespace {
+
+bool is_name_character(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '.' || c == '-';
+}
+
+/// Keys in quotes may hold anything, line breaks too.
+std::string as_written(std::string_view key) {
+  return !key.empty() && std::all_of(key.begin(), key.end(), is_name_character) ? std::string(key)
+                                                                                : in_quotes(key);
+}
+
+}  // namespace
 
 Keys::Keys(const Value& value, std::string_view example)
     : path_(value.path()), complaints_(&value.complaints()) {
@@ -67,8 +81,8 @@ void Keys::refuse_unknown() const {
       continue;
     }
     const auto near = nearest_plausible(entry.key, asked_);
-    complaints_->add(entry.place, path_of(entry.key), "an unknown key", "one of " + joined(asked_),
-                     near ? std::string(*near) : "removing it");
+    complaints_->add(entry.place, path_of(as_written(entry.key)), "an unknown key",
+                     "one of " + joined(asked_), near ? std::string(*near) : "removing it");
   }
 }
 
@@ -159,15 +173,6 @@ std::optional<std::size_t> read_choice(const Value& value,
   value.refuse("one of " + joined(names), in_quotes(*nearest(text, names)));
   return std::nullopt;
 }
-
-namespace {
-
-bool is_name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == '.' || c == '-';
-}
-
-}  // namespace
 
 bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= kLongestName &&

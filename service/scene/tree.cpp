@@ -3,17 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
-// toml++ 3.3 asserts, and in release builds lets clang assume, that a table header begins with a
-// key before it checks just that: "[?]" would abort the program or worse. So its assertions go and
-// its checks stay.
-#pragma push_macro("NDEBUG")
-#undef NDEBUG
-#define TOML_ASSERT(expression) static_assert(true)
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
-#pragma pop_macro("NDEBUG")
-
 #include "service/scene/scene.hpp"
+#include "service/scene/toml_library.hpp"
 
 namespace adstar::scene {
 namespace {
@@ -111,9 +102,11 @@ std::string syntax_remedy(std::string_view line, std::string_view description) {
     const std::string_view key = trimmed(line.substr(0, equals));
     std::string_view value = line.substr(equals + 1);
     value = trimmed(value.substr(0, value.find('#')));
-    if (!key.empty() && !value.empty() &&
-        value.find_first_of("\"'[]{}=") == std::string_view::npos) {
-      return std::string(key) + " = \"" + std::string(value) + "\" if it is meant as a text";
+    constexpr std::string_view kBareKey =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.";
+    if (!key.empty() && key.find_first_not_of(kBareKey) == std::string_view::npos &&
+        !value.empty() && value.find_first_of("\"'[]{}=") == std::string_view::npos) {
+      return std::string(key) + " = " + in_quotes(value) + " if it is meant as a text";
     }
   }
   return "key = value, with texts in quotes, brackets closed and one key a line";

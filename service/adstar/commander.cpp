@@ -1,0 +1,180 @@
+#include "service/adstar/commander.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <sys/random.h>
+
+#include <fmt/format.h>
+
+#include "service/adstar/failure.hpp"
+#include "service/dds/convert.hpp"
+#include "service/dds/verdict_text.hpp"
+
+namespace adstar::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kRepeat = 50ms;
+constexpr auto kUntilSomebodyListens = 10ms;
+constexpr auto kAskAfter = 1s;
+/// Time for the service that does fly the spacecraft to speak up.
+constexpr auto kProvisional = 300ms;
+
+runtime::CommanderId random_id() {
+  runtime::CommanderId id;
+  if (getrandom(&id, sizeof id, 0) != static_cast<ssize_t>(sizeof id)) {
+    throw Failure(kFailed, fmt::format("getrandom gave no commander id: {}", std::strerror(errno)));
+  }
+  return id;
+}
+
+Answer answer_of(const adstar_CommandStatus& status) {
+  const auto verdict = dds::verdict_of(status);
+  const auto reason = dds::reason_of(status);
+  if (!verdict || !reason) {
+    throw Failure(kFailed,
+                  fmt::format("service '{}' gave a verdict that this program does not "
+                              "know ({}/{}); use the adstar of the service's version",
+                              dds::text_of(status.service), static_cast<unsigned>(status.verdict),
+                              static_cast<unsigned>(status.reason)));
+  }
+  const adstar_Vector3& torque = status.torque_applied_n_m;
+  return {*verdict,
+          *reason,
+          std::string(dds::text_of(status.service)),
+          status.step,
+          status.time_ns,
+          status.effective_start_time_ns,
+          status.effective_end_time_ns,
+          {torque.x, torque.y, torque.z}};
+}
+
+}  // namespace
+
+bool Answer::is_final() const { return forgotten || dds::is_final(verdict); }
+
+Commander::Commander(const dds::Participant& participant, Target target)
+    : target_(std::move(target)),
+      id_(random_id()),
+      writer_(participant),
+      reader_(participant),
+      wait_set_(participant) {
+  wait_set_.attach(reader_);
+}
+
+std::uint64_t Commander::give(const Order& order) {
+  const std::uint64_t sequence = ++last_sequence_;
+  Dispatch dispatch;
+  adstar_TorqueCommand& command = dispatch.command;
+  dds::set_text(command.spacecraft, target_.spacecraft);
+  dds::set_text(command.actuator, target_.actuator);
+  command.commander = {id_.high, id_.low};
+  command.sequence_number = sequence;
+  command.priority = order.priority;
+  command.start_time_ns = order.start_ns;
+  command.end_time_ns = order.end_ns;
+  command.duration_ns = order.duration_ns;
+  command.torque_n_m = {order.torque_n_m[0], order.torque_n_m[1], order.torque_n_m[2]};
+  dispatch.heard = dispatch.next_send = Clock::now();
+  dispatches_.emplace(sequence, std::move(dispatch));
+  return sequence;
+}
+
+void Commander::work(std::chrono::milliseconds patience) {
+  const auto until = Clock::now() + patience;
+  for (auto now = Clock::now(); now < until; now = Clock::now()) {
+    send_due(now);
+    if (take_answers(now) || confirm_provisional(now)) {
+      return;
+    }
+    wait_set_.wait(std::max<Clock::duration>(next_event(until) - Clock::now(), 0ns));
+  }
+}
+
+bool Commander::silent(std::uint64_t sequence, std::chrono::nanoseconds timeout) const {
+  const Dispatch& dispatch = at(sequence);
+  const std::chrono::nanoseconds patience =
+      dispatch.answer ? std::max<std::chrono::nanoseconds>(timeout, 3 * kAskAfter) : timeout;
+  return Clock::now() - dispatch.heard > patience;
+}
+
+void Commander::send_due(Clock::time_point now) {
+  const bool listened_to = heard_by_anyone();
+  for (auto& [sequence, dispatch] : dispatches_) {
+    if (dispatch.ended() || now < dispatch.next_send) {
+      continue;
+    }
+    if (listened_to) {
+      writer_.write(dispatch.command);  // a full send window is what the next repetition is for
+    }
+    dispatch.next_send = now + (dispatch.answer ? kAskAfter
+                                : listened_to   ? kRepeat
+                                                : kUntilSomebodyListens);
+  }
+}
+
+bool Commander::take_answers(Clock::time_point now) {
+  bool any = false;
+  while (reader_.take([&](const adstar_CommandStatus& status, const dds_sample_info_t&) {
+    any = receive(status, now) || any;
+  }) > 0) {}
+  return any;
+}
+
+bool Commander::receive(const adstar_CommandStatus& status, Clock::time_point now) {
+  const runtime::CommanderId commander{status.commander.high, status.commander.low};
+  const auto found = dispatches_.find(status.sequence_number);
+  const bool ours = commander == id_ && found != dispatches_.end() &&
+                    dds::text_of(status.spacecraft) == target_.spacecraft &&
+                    dds::text_of(status.actuator) == target_.actuator;
+  const bool from_target =
+      target_.service.empty() || dds::text_of(status.service) == target_.service;
+  if (!ours || !from_target || found->second.ended()) {
+    return false;
+  }
+  Dispatch& dispatch = found->second;
+  Answer answer = answer_of(status);
+  dispatch.heard = now;
+  if (answer.reason == runtime::Reason::unknown_spacecraft) {
+    if (!dispatch.answer && !dispatch.provisional) {
+      dispatch.provisional = std::move(answer);
+      dispatch.provisional_until = now + kProvisional;
+    }
+    return false;
+  }
+  if (dispatch.answer && answer.reason == runtime::Reason::old_sequence) {
+    dispatch.answer->forgotten = true;
+    return true;
+  }
+  const bool news = !dispatch.answer || answer.is_final();
+  dispatch.next_send = now + kAskAfter;
+  dispatch.answer = std::move(answer);
+  return news;
+}
+
+bool Commander::confirm_provisional(Clock::time_point now) {
+  bool any = false;
+  for (auto& [sequence, dispatch] : dispatches_) {
+    if (!dispatch.answer && dispatch.provisional && now >= dispatch.provisional_until) {
+      dispatch.answer = dispatch.provisional;
+      any = true;
+    }
+  }
+  return any;
+}
+
+Commander::Clock::time_point Commander::next_event(Clock::time_point limit) const {
+  for (const auto& [sequence, dispatch] : dispatches_) {
+    if (!dispatch.ended()) {
+      limit = std::min(limit, dispatch.next_send);
+      if (!dispatch.answer && dispatch.provisional) {
+        limit = std::min(limit, dispatch.provisional_until);
+      }
+    }
+  }
+  return limit;
+}
+
+}  // namespace adstar::cli

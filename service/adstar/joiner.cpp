@@ -1,0 +1,127 @@
+#include "service/adstar/joiner.hpp"
+
+#include <algorithm>
+
+#include "adstar/attitude.hpp"
+#include "service/dds/convert.hpp"
+
+namespace adstar::cli {
+namespace {
+
+/// Whoever can write to the domain could otherwise fill our memory with names.
+constexpr std::size_t kMostTracks = 1'100'000;
+
+void put(Row& row, std::size_t first, const adstar_Vector3& v) {
+  row.values[first] = v.x;
+  row.values[first + 1] = v.y;
+  row.values[first + 2] = v.z;
+}
+
+void put(Row& row, std::size_t first, const adstar_Quaternion& q) {
+  row.values[first] = q.w;
+  row.values[first + 1] = q.x;
+  row.values[first + 2] = q.y;
+  row.values[first + 3] = q.z;
+}
+
+}  // namespace
+
+/// The row that this half belongs to; null when that was given out before.
+template <class Sample>
+Row* Joiner::place(const Sample& sample, Half half) {
+  const std::string name(dds::text_of(sample.spacecraft));
+  if (tracks_.size() >= kMostTracks && !tracks_.contains(name)) {
+    return nullptr;
+  }
+  Track& track = tracks_[name];
+  const auto newest = track.newest.find(half);
+  if (newest != track.newest.end() && sample.step < newest->second) {
+    // A topic never runs backwards: the daemon has begun anew.
+    give_out(track, restarted_, true);
+    track = Track{};
+  }
+  track.newest[half] = sample.step;
+  if (track.begun && sample.step <= track.done) {
+    return nullptr;
+  }
+  Waiting& waiting = track.waiting[sample.step];
+  waiting.halves |= half;
+  waiting.row.spacecraft = name;
+  waiting.row.step = sample.step;
+  waiting.row.time_ns = sample.time_ns;
+  waiting.row.flags |= sample.flags;
+  return &waiting.row;
+}
+
+void Joiner::add(const adstar_AttitudeState& sample) {
+  if (Row* row = place(sample, kAttitudeHalf)) {
+    put(*row, kAttitude, sample.attitude_body_to_inertial);
+    put(*row, kAngularVelocity, sample.angular_velocity_body_rad_s);
+  }
+}
+
+void Joiner::add(const adstar_MomentumState& sample) {
+  if (Row* row = place(sample, kMomentumHalf)) {
+    put(*row, kMomentumInertial, sample.momentum_inertial_n_m_s);
+    put(*row, kMomentumBody, sample.momentum_body_n_m_s);
+    row->values[kEnergy] = sample.rotational_energy_j;
+    row->values[kWork] = sample.work_j;
+  }
+}
+
+void Joiner::add(std::string_view spacecraft, const adstar_FleetState& fleet,
+                 const adstar_FleetMember& member) {
+  const auto [seen, fresh] = fleet_steps_.emplace(spacecraft, fleet.step);
+  if (has_own_topics(spacecraft) || (!fresh && seen->second == fleet.step)) {
+    return;
+  }
+  seen->second = fleet.step;
+  Row row;
+  row.spacecraft = spacecraft;
+  row.step = fleet.step;
+  row.time_ns = fleet.time_ns;
+  row.flags = member.flags;
+  const adstar_Quaternion& q = member.attitude_body_to_inertial;
+  const adstar_Vector3& H = member.momentum_inertial_n_m_s;
+  put(row, kAttitude, q);
+  put(row, kAngularVelocity, member.angular_velocity_body_rad_s);
+  put(row, kMomentumInertial, H);
+  // Pi_B = R_IBᵀ H_I, as the daemon itself computes it.
+  const Vec3<double> Pi_B =
+      rotate_inverse(Quat<double>{q.w, q.x, q.y, q.z}, Vec3<double>{H.x, H.y, H.z});
+  put(row, kMomentumBody, adstar_Vector3{Pi_B.x, Pi_B.y, Pi_B.z});
+  row.values[kEnergy] = member.rotational_energy_j;
+  fleet_rows_.push_back(std::move(row));
+}
+
+bool Joiner::has_own_topics(std::string_view spacecraft) const {
+  return tracks_.find(spacecraft) != tracks_.end();
+}
+
+std::vector<Row> Joiner::ready(bool everything) {
+  std::vector<Row> rows;
+  std::swap(rows, restarted_);
+  for (auto& [name, track] : tracks_) {
+    give_out(track, rows, everything);
+  }
+  rows.insert(rows.end(), std::make_move_iterator(fleet_rows_.begin()),
+              std::make_move_iterator(fleet_rows_.end()));
+  fleet_rows_.clear();
+  return rows;
+}
+
+void Joiner::give_out(Track& track, std::vector<Row>& rows, bool everything) {
+  while (!track.waiting.empty()) {
+    const auto oldest = track.waiting.begin();
+    const bool overtaken = track.waiting.size() > 1;
+    if (oldest->second.halves != kBoth && !overtaken && !everything) {
+      return;
+    }
+    track.begun = true;
+    track.done = oldest->first;
+    rows.push_back(std::move(oldest->second.row));
+    track.waiting.erase(oldest);
+  }
+}
+
+}  // namespace adstar::cli

@@ -1,0 +1,58 @@
+#pragma once
+// AttitudeState and MomentumState of one spacecraft and step become one row.
+//
+// A half waits for the other until something later of that spacecraft has come: each topic keeps
+// its order, but the two are taken one after the other, so that is judged at the end of a round.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <telemetry.h>
+#include <vector>
+
+#include "service/adstar/row.hpp"
+
+namespace adstar::cli {
+
+class Joiner {
+ public:
+  void add(const adstar_AttitudeState& sample);
+  void add(const adstar_MomentumState& sample);
+  /// Of spacecraft that have no topics of their own; the others are told by their halves.
+  void add(std::string_view spacecraft, const adstar_FleetState& fleet,
+           const adstar_FleetMember& member);
+
+  /// After both topics were taken: the rows that are ready, by spacecraft, then by step.
+  std::vector<Row> end_round() { return ready(false); }
+  /// At the end of it all: what still waits, too.
+  std::vector<Row> rest() { return ready(true); }
+
+  bool has_own_topics(std::string_view spacecraft) const;
+
+ private:
+  enum Half : unsigned { kAttitudeHalf = 1, kMomentumHalf = 2, kBoth = 3 };
+
+  struct Waiting {
+    Row row;
+    unsigned halves = 0;
+  };
+  struct Track {
+    std::map<std::uint64_t, Waiting> waiting;  ///< by step
+    std::map<Half, std::uint64_t> newest;      ///< step of each topic
+    bool begun = false;
+    std::uint64_t done = 0;  ///< the last step given out, once begun
+  };
+
+  template <class Sample>
+  Row* place(const Sample& sample, Half half);
+  std::vector<Row> ready(bool everything);
+  static void give_out(Track& track, std::vector<Row>& rows, bool everything);
+
+  std::map<std::string, Track, std::less<>> tracks_;
+  std::map<std::string, std::uint64_t, std::less<>> fleet_steps_;
+  std::vector<Row> restarted_;  ///< of runs that ended before the present one
+  std::vector<Row> fleet_rows_;
+};
+
+}  // namespace adstar::cli

@@ -1,0 +1,65 @@
+#include "service/adstar/propagate_plan.hpp"
+
+#include <limits>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "adstar/integrators/all.hpp"
+#include "service/adstar/failure.hpp"
+#include "service/scene/nearest.hpp"
+
+namespace adstar::cli {
+namespace {
+
+using scene::format_duration;
+
+std::uint64_t whole_steps(std::string_view what, std::string_view option, std::int64_t ns,
+                          std::int64_t step_ns) {
+  const std::int64_t below = ns / step_ns;
+  if (below * step_ns == ns) {
+    return static_cast<std::uint64_t>(below);
+  }
+  std::string choices;
+  if (below > 0) {
+    choices = format_duration(below * step_ns);
+  }
+  if (below < std::numeric_limits<std::int64_t>::max() / step_ns) {
+    choices += (choices.empty() ? "" : " or ") + format_duration((below + 1) * step_ns);
+  }
+  throw Failure(kUsage,
+                fmt::format("{} {} is not whole steps of {}; try {} {}", what, format_duration(ns),
+                            format_duration(step_ns), option, choices));
+}
+
+void require_scheme(const std::string& name) {
+  if (with_scheme(name, [](auto) {})) {
+    return;
+  }
+  const auto known = scheme_names();
+  const auto near = scene::nearest_plausible(name, known);
+  throw Failure(kUsage, fmt::format("--scheme: got '{}', expected one of {}; try {}", name,
+                                    scene::joined(known), near.value_or(known.front())));
+}
+
+}  // namespace
+
+PropagatePlan make_plan(const scene::Simulation& simulation, const PropagateRequest& request) {
+  PropagatePlan plan;
+  plan.step_ns = request.step_ns.value_or(simulation.step_ns);
+  plan.scheme = request.scheme.value_or(simulation.scheme);
+  require_scheme(plan.scheme);
+  if (!request.duration_ns && !simulation.duration_ns) {
+    throw Failure(kUsage, "the scene is endless; say how long, for example --duration 100s");
+  }
+  plan.steps = request.duration_ns
+                   ? whole_steps("--duration", "--duration", *request.duration_ns, plan.step_ns)
+                   : whole_steps("the scene's duration", "--duration", *simulation.duration_ns,
+                                 plan.step_ns);
+  if (request.every_ns) {
+    plan.every = whole_steps("--every", "--every", *request.every_ns, plan.step_ns);
+  }
+  return plan;
+}
+
+}  // namespace adstar::cli

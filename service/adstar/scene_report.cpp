@@ -1,0 +1,133 @@
+#include "service/adstar/scene_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "adstar/integrators/all.hpp"
+#include "service/adstar/numbers.hpp"
+#include "service/adstar/spacecraft_report.hpp"
+
+namespace adstar::cli {
+namespace {
+
+struct SchemeFacts {
+  int order = 0;
+  double stage_reach = 1;
+};
+
+SchemeFacts facts_of(const std::string& scheme) {
+  SchemeFacts facts;
+  with_scheme(scheme, [&](auto s) {
+    facts = {decltype(s)::kOrder, static_cast<double>(decltype(s)::kStageReach)};
+  });
+  return facts;
+}
+
+std::string simulation_report(const scene::Simulation& simulation) {
+  const bool clock = simulation.pace == scene::Pace::clock;
+  std::string text = fmt::format(
+      "simulation\n  step      {}, scheme {} of order {}\n  duration  {}\n  pace      {}\n",
+      scene::format_duration(simulation.step_ns), simulation.scheme,
+      facts_of(simulation.scheme).order,
+      simulation.duration_ns ? scene::format_duration(*simulation.duration_ns) : "endless",
+      clock ? fmt::format("clock, rate {}", short_number(simulation.rate))
+            : "free, as fast as it can");
+  if (simulation.epoch) {
+    text += fmt::format("  epoch     {} at t = 0\n", *simulation.epoch);
+  }
+  if (simulation.accuracy_rad) {
+    text += fmt::format("  accuracy  {} rad asked for\n", short_number(*simulation.accuracy_rad));
+  }
+  return text;
+}
+
+/// The largest turn in one step, from what the spacecraft have at the start.
+std::string turn_report(const scene::Scene& scene) {
+  const StepLimits& limits = scene.simulation.limits;
+  const double h = seconds<double>(scene.simulation.step_ns);
+  const double reach = facts_of(scene.simulation.scheme).stage_reach;
+  double largest = 0;
+  const scene::Spacecraft* fastest = &scene.spacecraft.front();
+  std::int64_t parts = 1;
+  bool resolved = true;
+  for (const scene::Spacecraft& craft : scene.spacecraft) {
+    const RigidBody<double> body(craft.inertia_body_kg_m2);
+    const Vec3<double> Pi_B = body_momentum(craft.initial);
+    const double turn = h * std::sqrt(angular_speed_bound_squared(body, Pi_B, 0.0));
+    if (turn > largest) {
+      largest = turn;
+      fastest = &craft;
+    }
+    const SubstepCount count = count_substeps(body, Pi_B, 0.0, h, reach, limits);
+    parts = std::max(parts, count.parts);
+    resolved = resolved && count.within_limit;
+  }
+  const char* const format =
+      "turn in a step\n  |omega| h at most {} rad without torque ('{}'); a part of a step may turn "
+      "{} rad: {}\n";
+  std::string verdict = "no sub-steps at the start";
+  if (!resolved) {
+    verdict = fmt::format(
+        "WARNING, {} sub-steps (simulation.substep_limit) do not suffice; take a shorter step",
+        limits.substeps);
+  } else if (parts > 1) {
+    verdict = fmt::format("{} sub-steps at the start, at most {}", parts, limits.substeps);
+  }
+  return fmt::format(fmt::runtime(format), short_number(largest), fastest->name,
+                     short_number(limits.substep_angle_rad), verdict);
+}
+
+std::string topic_line(const char* topic, std::uint64_t every, std::int64_t step_ns,
+                       const std::string& of) {
+  const std::string rate =
+      every == 0
+          ? "off"
+          : fmt::format("{} Hz, {}",
+                        short_number(1.0 / (static_cast<double>(every) * seconds<double>(step_ns))),
+                        of);
+  return fmt::format("  adstar/{:<15} {}\n", topic, rate);
+}
+
+std::string telemetry_report(const scene::Scene& scene) {
+  const scene::Telemetry& telemetry = scene.telemetry;
+  const std::int64_t step_ns = scene.simulation.step_ns;
+  const std::string watched = fmt::format("{} of {} spacecraft", counted(telemetry.watched.size()),
+                                          counted(scene.spacecraft.size()));
+  std::string text = "telemetry (per simulated second)\n";
+  text += topic_line("attitude_state", telemetry.attitude_every, step_ns, watched);
+  text += topic_line("momentum_state", telemetry.momentum_every, step_ns, watched);
+  text += topic_line("fleet_state", telemetry.fleet_every, step_ns, "all spacecraft");
+  return text;
+}
+
+std::string dds_report(const scene::Scene& scene) {
+  const scene::Dds& dds = scene.dds;
+  std::string text = fmt::format(
+      "dds\n  domain {}, {}, interface {}\n", dds.domain,
+      dds.partition.empty() ? "default partition" : "partition " + dds.partition, dds.interface);
+  if (dds.interface == "lo") {
+    text += "  loopback only: nothing outside this machine hears or commands it\n";
+  } else {
+    text += fmt::format(
+        "  WARNING: whoever reaches interface {} can command these spacecraft; set interface = "
+        "\"lo\" unless that is meant\n",
+        dds.interface);
+  }
+  return text;
+}
+
+constexpr const char* kLeftOut =
+    "not modelled\n"
+    "  orbit and translation, gravity gradient, magnetic, aerodynamic and solar-radiation torque,\n"
+    "  reaction wheels, flexible bodies, fuel slosh\n";
+
+}  // namespace
+
+std::string scene_report(const scene::Scene& scene) {
+  return simulation_report(scene.simulation) + spacecraft_report(scene.spacecraft) +
+         turn_report(scene) + telemetry_report(scene) + dds_report(scene) + kLeftOut;
+}
+
+}  // namespace adstar::cli

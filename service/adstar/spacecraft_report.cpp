@@ -1,0 +1,135 @@
+#include "service/adstar/spacecraft_report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "adstar/bodies/rigid_body.hpp"
+#include "service/adstar/numbers.hpp"
+
+namespace adstar::cli {
+namespace {
+
+struct Range {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  std::string text() const {
+    return least == most ? short_number(least) : short_number(least) + " to " + short_number(most);
+  }
+};
+
+struct Group {
+  std::string first, last;
+  std::size_t count = 0;
+  std::array<Range, 3> moments;
+  Range rate, momentum;
+  std::string torques;  ///< a line each
+};
+
+const char* frame_name(Frame frame) { return frame == Frame::body ? "body" : "inertial"; }
+
+std::string vector_text(const Vec3<double>& v) {
+  return fmt::format("[{}, {}, {}]", short_number(v.x), short_number(v.y), short_number(v.z));
+}
+
+std::string details(const Constant<double>& model) {
+  return vector_text(model.torque_n_m) + " N m";
+}
+std::string details(const Harmonic<double>& model) {
+  return fmt::format("amplitude {} N m, angular frequency {} rad/s",
+                     vector_text(model.amplitude_n_m), vector_text(model.angular_frequency_rad_s));
+}
+std::string details(const Table<double>& model) {
+  const bool hold = model.interpolation == Interpolation::hold;
+  return fmt::format("{} rows from {} s to {} s, {}, then {}", counted(model.time_ns.size()),
+                     seconds_text(model.time_ns.front()), seconds_text(model.time_ns.back()),
+                     hold ? "held" : "joined by lines",
+                     model.after_end == AfterEnd::hold ? "the last value" : "zero");
+}
+
+std::string torque_lines(const scene::Spacecraft& craft) {
+  std::string text;
+  for (std::size_t i = 0; i < craft.torques.size(); ++i) {
+    text += std::visit(
+        [&](const auto& model) {
+          using Model = std::decay_t<decltype(model)>;
+          std::string what;
+          if constexpr (std::is_same_v<Model, Commanded<double>>) {
+            const auto actuator =
+                std::find_if(craft.actuators.begin(), craft.actuators.end(),
+                             [&](const scene::Actuator& a) { return a.torque == i; });
+            what = fmt::format("actuator '{}', at most {} N m", actuator->name,
+                               vector_text(actuator->max_torque_n_m));
+          } else {
+            what = details(model);
+          }
+          return fmt::format("    torque    {} ({} frame): {}\n", Model::kName,
+                             frame_name(model.frame), what);
+        },
+        craft.torques[i]);
+  }
+  return text.empty() ? "    torque    none: free rotation\n" : text;
+}
+
+void add(Group& group, const scene::Spacecraft& craft) {
+  const RigidBody<double> body(craft.inertia_body_kg_m2);
+  group.first = group.count == 0 ? craft.name : group.first;
+  group.last = craft.name;
+  ++group.count;
+  for (std::size_t i = 0; i < 3; ++i) {
+    group.moments[i].add(body.moments()[i]);
+  }
+  group.rate.add(norm(body.angular_velocity(body_momentum(craft.initial))));
+  group.momentum.add(norm(craft.initial.H_I.value()));
+}
+
+std::string text_of(const Group& group) {
+  const char* const between = group.count == 2 ? ", " : " ... ";
+  std::string title = group.first;
+  if (group.count > 1) {
+    title += between + group.last + fmt::format(" ({})", counted(group.count));
+  }
+  return fmt::format(
+      "  {}\n"
+      "    body      rigid, principal moments {} | {} | {} kg m^2\n"
+      "    at t = 0  |omega| {} rad/s, |H| {} N m s\n"
+      "{}",
+      title, group.moments[0].text(), group.moments[1].text(), group.moments[2].text(),
+      group.rate.text(), group.momentum.text(), group.torques);
+}
+
+}  // namespace
+
+std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft) {
+  std::vector<Group> groups;
+  std::map<std::string, std::size_t> by_torques;
+  for (const scene::Spacecraft& craft : spacecraft) {
+    std::string torques = torque_lines(craft);
+    const auto [place, fresh] = by_torques.emplace(torques, groups.size());
+    if (fresh) {
+      groups.emplace_back();
+      groups.back().torques = std::move(torques);
+    }
+    add(groups[place->second], craft);
+  }
+  constexpr std::size_t kShown = 20;
+  std::string text = fmt::format("spacecraft: {}\n", counted(spacecraft.size()));
+  for (std::size_t i = 0; i < std::min(kShown, groups.size()); ++i) {
+    text += text_of(groups[i]);
+  }
+  if (groups.size() > kShown) {
+    text += fmt::format("  ... {} more sets of torques\n", counted(groups.size() - kShown));
+  }
+  return text;
+}
+
+}  // namespace adstar::cli

@@ -1,0 +1,13 @@
+#pragma once
+// The spacecraft of a scene, those with the same models on one entry.
+
+#include <string>
+#include <vector>
+
+#include "service/scene/scene.hpp"
+
+namespace adstar::cli {
+
+std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft);
+
+}  // namespace adstar::cli

@@ -1,0 +1,54 @@
+#include "service/adstar/unresolved.hpp"
+
+#include <fmt/format.h>
+
+#include "service/adstar/numbers.hpp"
+
+namespace adstar::cli {
+namespace {
+
+constexpr std::size_t kNamed = 3;
+
+}  // namespace
+
+void Unresolved::note(const runtime::Fleet& fleet, std::int64_t time_ns) {
+  if (!any_) {
+    any_ = true;
+    first_ns_ = time_ns;
+  }
+  for (std::size_t i = 0; i < flags_.size(); ++i) {
+    flags_[i] |= fleet.vehicles()[i].flags;
+  }
+}
+
+std::string Unresolved::warning(const scene::Scene& scene, std::int64_t step_ns) const {
+  std::string text;
+  const auto say = [&](std::uint32_t flag, const std::string& fault, const std::string& remedy) {
+    std::string names;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < flags_.size(); ++i) {
+      if ((flags_[i] & flag) != 0 && ++count <= kNamed) {
+        names += (names.empty() ? "" : ", ") + scene.spacecraft[i].name;
+      }
+    }
+    if (count > 0) {
+      text += fmt::format(
+          "{}{} of {} spacecraft ({}{}) {}, first in the step to {} s: their rows are not to be "
+          "trusted; {}",
+          text.empty() ? "" : "\n", counted(count), counted(flags_.size()), names,
+          count > kNamed ? ", ..." : "", fault, seconds_text(first_ns_), remedy);
+    }
+  };
+  const StepLimits& limits = scene.simulation.limits;
+  const std::string step = scene::format_duration(step_ns);
+  say(runtime::kFlagUnresolvedAngle,
+      fmt::format("turned further in {} than {} sub-steps of {} rad reach", step, limits.substeps,
+                  short_number(limits.substep_angle_rad)),
+      "take a shorter --step, or raise simulation.substep_limit");
+  say(runtime::kFlagUnresolvedEdges,
+      fmt::format("met more than {} torque edges in one step of {}", limits.edges, step),
+      "take a shorter --step, or raise simulation.edge_limit");
+  return text;
+}
+
+}  // namespace adstar::cli

@@ -1,0 +1,23 @@
+#pragma once
+// The verbs, one file each. To add one: its file, a line here and a line in main.cpp.
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+namespace adstar::cli {
+
+struct Verb {
+  CLI::App* command = nullptr;  ///< its options, in the tree of the program
+  std::function<int()> run;  ///< returns the exit code; may throw Failure, ReaderGone, SceneError
+};
+
+Verb add_propagate(CLI::App& program);
+Verb add_check(CLI::App& program);
+Verb add_torque(CLI::App& program);
+Verb add_monitor(CLI::App& program);
+Verb add_list(CLI::App& program);
+/// Reads the finished option tree when it runs.
+Verb add_completion(CLI::App& program);
+
+}  // namespace adstar::cli

@@ -1,0 +1,34 @@
+#include "tests/cli/client.hpp"
+
+namespace adstar::testing {
+namespace {
+
+class HelpOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(HelpOf, the_verb_is_golden_and_has_an_example) {
+  const Outcome outcome = client({GetParam(), "--help"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_NE(outcome.out.find("Example:\n  "), std::string::npos);
+  expect_golden(std::string("help_") + GetParam(), outcome.out);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllVerbs, HelpOf,
+                         ::testing::Values("propagate", "check", "torque", "monitor", "list",
+                                           "completion"),
+                         [](const auto& the) { return std::string(the.param); });
+
+TEST(Help, of_the_program_is_golden) {
+  const Outcome outcome = client({"--help"});
+  EXPECT_EQ(outcome.code, 0);
+  expect_golden("help", outcome.out);
+}
+
+TEST(Help, the_version_is_one_line) {
+  const Outcome outcome = client({"--version"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out, "adstar " ADSTAR_VERSION "\n");
+}
+
+}  // namespace
+}  // namespace adstar::testing

@@ -1,0 +1,134 @@
+#include "service/adstar/joiner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "service/dds/convert.hpp"
+
+namespace adstar::cli {
+namespace {
+
+adstar_AttitudeState attitude(std::uint64_t step, const char* name = "sat1") {
+  adstar_AttitudeState sample{};
+  dds::set_text(sample.spacecraft, name);
+  sample.step = step;
+  sample.time_ns = static_cast<std::int64_t>(step) * 1'000'000;
+  sample.attitude_body_to_inertial = {1, 2, 3, 4};
+  sample.angular_velocity_body_rad_s = {5, 6, 7};
+  return sample;
+}
+
+adstar_MomentumState momentum(std::uint64_t step, const char* name = "sat1") {
+  adstar_MomentumState sample{};
+  dds::set_text(sample.spacecraft, name);
+  sample.step = step;
+  sample.time_ns = static_cast<std::int64_t>(step) * 1'000'000;
+  sample.momentum_inertial_n_m_s = {8, 9, 10};
+  sample.momentum_body_n_m_s = {11, 12, 13};
+  sample.rotational_energy_j = 14;
+  sample.work_j = 15;
+  return sample;
+}
+
+/// "sat1@3:both sat1@4:attitude"
+std::string described(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    const bool has_attitude = row.values[kAttitude].has_value();
+    const bool has_momentum = row.values[kMomentumBody].has_value();
+    text += (text.empty() ? "" : " ") + row.spacecraft + "@" + std::to_string(row.step) + ":" +
+            (has_attitude && has_momentum ? "both"
+             : has_attitude               ? "attitude"
+                                          : "momentum");
+  }
+  return text;
+}
+
+TEST(Joiner, puts_every_value_into_its_column) {
+  Joiner joiner;
+  joiner.add(attitude(3));
+  joiner.add(momentum(3));
+  const auto rows = joiner.end_round();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].time_ns, 3'000'000);
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    EXPECT_EQ(rows[0].values[i], static_cast<double>(i + 1)) << kColumns[i];
+  }
+}
+
+TEST(Joiner, a_half_waits_for_the_other) {
+  Joiner joiner;
+  joiner.add(attitude(3));
+  EXPECT_EQ(described(joiner.end_round()), "");
+  joiner.add(momentum(3));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@3:both");
+}
+
+TEST(Joiner, the_order_of_the_topics_within_a_round_does_not_matter) {
+  Joiner joiner;
+  joiner.add(attitude(3));
+  joiner.add(attitude(4));
+  joiner.add(momentum(3));
+  joiner.add(momentum(4));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@3:both sat1@4:both");
+}
+
+TEST(Joiner, a_half_goes_alone_when_a_later_step_has_come) {
+  Joiner joiner;
+  joiner.add(attitude(3));
+  joiner.end_round();
+  joiner.add(attitude(4));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@3:attitude");
+  joiner.add(momentum(4));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@4:both");
+}
+
+TEST(Joiner, a_half_that_comes_after_its_row_went_is_dropped) {
+  Joiner joiner;
+  joiner.add(attitude(3));
+  joiner.add(attitude(4));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@3:attitude");
+  joiner.add(momentum(3));
+  EXPECT_EQ(described(joiner.end_round()), "");
+  EXPECT_EQ(described(joiner.rest()), "sat1@4:attitude");
+}
+
+TEST(Joiner, spacecraft_do_not_wait_for_each_other) {
+  Joiner joiner;
+  joiner.add(attitude(3, "sat1"));
+  joiner.add(attitude(4, "sat2"));
+  joiner.add(momentum(4, "sat2"));
+  EXPECT_EQ(described(joiner.end_round()), "sat2@4:both");
+}
+
+TEST(Joiner, a_daemon_that_begins_anew_is_heard_from_its_first_step) {
+  Joiner joiner;
+  joiner.add(attitude(900));
+  joiner.add(momentum(900));
+  joiner.add(attitude(1000));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@900:both");
+  joiner.add(attitude(0));
+  joiner.add(momentum(0));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@1000:attitude sat1@0:both");
+}
+
+TEST(Joiner, fleet_samples_speak_only_for_spacecraft_without_topics_of_their_own) {
+  Joiner joiner;
+  adstar_FleetState fleet{};
+  fleet.step = 5;
+  adstar_FleetMember member{};
+  member.attitude_body_to_inertial = {0, 0, 0, 1};  // half a turn about z
+  member.momentum_inertial_n_m_s = {1, 2, 3};
+  joiner.add(attitude(5, "sat1"));
+  joiner.add("sat1", fleet, member);
+  joiner.add("sat2", fleet, member);
+  joiner.add("sat2", fleet, member);
+  const auto rows = joiner.end_round();
+  ASSERT_EQ(described(rows), "sat2@5:both");
+  EXPECT_EQ(rows[0].values[kMomentumBody], -1.0);
+  EXPECT_EQ(rows[0].values[kMomentumBody + 1], -2.0);
+  EXPECT_EQ(rows[0].values[kMomentumBody + 2], 3.0);
+  EXPECT_FALSE(rows[0].values[kWork].has_value());
+}
+
+}  // namespace
+}  // namespace adstar::cli

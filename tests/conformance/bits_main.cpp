@@ -1,0 +1,125 @@
+// Prints the end states of a fixed set of motions, digit by digit, and a hash over every state on
+// the way. Built for several instruction sets and by another compiler; all must print the same
+// (bits_compare.cmake).
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "adstar/propagator.hpp"
+
+namespace {
+
+using namespace adstar;
+using V = Vec3<double>;
+
+/// FNV-1a over the bytes of every state.
+class Hash {
+ public:
+  void add(const State<double>& state) {
+    unsigned char bytes[sizeof state];
+    std::memcpy(bytes, &state, sizeof state);
+    for (const unsigned char byte : bytes) {
+      value_ = (value_ ^ byte) * 0x100000001b3ULL;
+    }
+  }
+  unsigned long long value() const { return value_; }
+
+ private:
+  unsigned long long value_ = 0xcbf29ce484222325ULL;
+};
+
+Eigen::Matrix3d tensor(double xx, double yy, double zz, double xy = 0, double xz = 0,
+                       double yz = 0) {
+  Eigen::Matrix3d J;
+  J << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return J;
+}
+
+Commanded<double> commands(Frame frame) {
+  Commanded<double> actuator;
+  actuator.frame = frame;
+  for (std::int64_t i = 0; i < 16; ++i) {
+    const auto size = static_cast<double>(i + 1);
+    actuator.window[static_cast<std::size_t>(i)] = {i * 61'234'567'891 + 13,
+                                                    i * 61'234'567'891 + 20'000'000'017,
+                                                    {0.001 * size, -0.002 * size, 0.0005}};
+  }
+  actuator.intervals = 16;
+  return actuator;
+}
+
+Table<double> table(Frame frame, Interpolation interpolation, AfterEnd after_end) {
+  Table<double> torque{frame, interpolation, after_end, {}, {}};
+  for (std::int64_t i = 0; i < 500; ++i) {
+    const auto k = static_cast<double>(i % 17) - 8;
+    torque.time_ns.push_back(i * 1'333'333'333 + 1);
+    torque.torque_n_m.push_back({0.002 * k, 0.001 * (3 - k), -0.0007 * k});
+  }
+  return torque;
+}
+
+void run(const char* name, const Eigen::Matrix3d& J, const V& omega_B,
+         const std::vector<Torque<double>>& torques, std::int64_t h_ns = 10'000'000) {
+  const RigidBody<double> body(J);
+  const Quat<double> q = normalised(Quat<double>{1, -2, 0.5, 3});
+  State<double> state = make_state(q, rotate(q, body.momentum(omega_B)));
+  Hash hash;
+  std::int64_t parts = 0;
+  for (std::int64_t n = 0; n < 100'000; ++n) {
+    parts +=
+        advance<CoadjointRk4>(body, state, std::span<const Torque<double>>(torques), n * h_ns, h_ns)
+            .parts;
+    hash.add(state);
+  }
+  const Vec3<double> H = state.H_I.value();
+  std::printf("%s parts %lld hash %016llx\n  q %a %a %a %a\n  H %a %a %a\n  W %a\n", name,
+              static_cast<long long>(parts), hash.value(), state.q_IB.w, state.q_IB.x, state.q_IB.y,
+              state.q_IB.z, H.x, H.y, H.z, state.work.value);
+}
+
+void print_sines() {
+  Hash hash;
+  double x = 1e-9;
+  State<double> state;
+  for (int i = 0; i < 100'000; ++i) {
+    const SinCos<double> a = sincos(x);
+    state.q_IB = {a.sin, a.cos, x, 0};
+    hash.add(state);
+    x = x * 1.0005 + 1e-7;
+  }
+  std::printf("sines hash %016llx, the last at %a: %a\n", hash.value(), x, sincos(x).sin);
+}
+
+}  // namespace
+
+int main() {
+  const Eigen::Matrix3d paper = tensor(0.9144, 1.098, 1.66);
+  const Eigen::Matrix3d full = tensor(1.2, 1.0, 1.5, -0.15, 0.08, 0.11);
+  const Eigen::Matrix3d needle = tensor(1e-3, 1, 1.0005, 1e-4, 0, 0);
+  const V slow{0.45549, 0.82623, 0.03476}, fast{30, -50, 12}, micro{1e-5, 2e-5, -1e-5};
+  const Harmonic<double> body{Frame::body, {0.02, 0.015, 0.01}, {0.5, 0.3, 1.7}, {0, 1.57, 0.3}};
+  const Harmonic<double> inertial{
+      Frame::inertial, {0.02, 0.0, 0.01}, {0.05, 0.3, 11}, {0, 0.1, 0.2}};
+  print_sines();
+  run("free", paper, slow, {});
+  run("free, full tensor", full, slow, {});
+  run("free, slow", full, micro, {}, 1'000'000);
+  run("free, sub-stepped", full, fast, {}, 100'000'000);
+  run("free, needle", needle, {0.1, 1, 0.2}, {});
+  run("constant", paper, slow, {Constant<double>{Frame::body, {0.01, -0.02, 0.005}}});
+  run("constant, inertial", full, slow, {Constant<double>{Frame::inertial, {0.01, -0.02, 0.005}}});
+  run("harmonic", full, slow, {body, inertial});
+  run("tables", full, slow,
+      {table(Frame::body, Interpolation::linear, AfterEnd::zero),
+       table(Frame::inertial, Interpolation::hold, AfterEnd::hold)});
+  run("commands", full, slow, {commands(Frame::body), commands(Frame::inertial)});
+  run("everything, sub-stepped", full, fast,
+      {body, inertial, commands(Frame::body),
+       table(Frame::inertial, Interpolation::linear, AfterEnd::zero),
+       Constant<double>{Frame::body, {0.01, -0.02, 0.005}}},
+      50'000'000);
+  return 0;
+}

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Installs what the tests need, builds, and runs them: all in release, then what the sanitizers can judge.
+#   bash tests/run.sh            everything
+#   bash tests/run.sh --quick    release only
+set -euo pipefail
+
+quick=false
+case "${1:-}" in
+  "") ;;
+  --quick) quick=true ;;
+  *)
+    echo "usage: bash tests/run.sh [--quick]" >&2
+    exit 2
+    ;;
+esac
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+bash deploy/install-deps.sh --tests
+
+jobs=$(nproc)
+summary=()
+failed=false
+
+# judge NAME COMMAND...: runs it, notes how it ended and how long it took, goes on either way.
+judge() {
+  local name=$1 began=$SECONDS outcome=passed
+  shift
+  echo
+  echo "==== $name"
+  "$@" || outcome=FAILED
+  [[ $outcome == passed ]] || failed=true
+  summary+=("$(printf '%-28s %-7s %5d s' "$name" "$outcome" $((SECONDS - began)))")
+  [[ $outcome == passed ]]
+}
+
+# ThreadSanitizer of this age cannot place its shadow when the kernel spreads mappings far.
+without_randomisation() {
+  if setarch "$(uname -m)" -R true 2>/dev/null; then
+    setarch "$(uname -m)" -R "$@"
+  else
+    "$@"
+  fi
+}
+
+# run_preset PRESET TARGET: configures, builds, and runs what ctest finds.
+run_preset() {
+  local preset=$1 target=$2
+  judge "$preset: configure" cmake --preset "$preset" || return 0
+  judge "$preset: build" cmake --build "build/$preset" --parallel "$jobs" --target "$target" || return 0
+  judge "$preset: tests" without_randomisation \
+    ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error || return 0
+}
+
+run_preset release all
+if [[ $quick == false ]]; then
+  export ASAN_OPTIONS=detect_stack_use_after_return=1
+  export UBSAN_OPTIONS=print_stacktrace=1
+  export TSAN_OPTIONS=second_deadlock_stack=1
+  run_preset asan adstar_tests
+  run_preset tsan adstar_tests
+fi
+
+echo
+echo "==== summary"
+printf '%s\n' "${summary[@]}"
+if [[ $failed == true ]]; then
+  echo "adstar tests: FAILED"
+  exit 1
+fi
+echo "adstar tests: all passed"

@@ -1,0 +1,16 @@
+# ctest -L style: formatting. The target `tidy`: clang-tidy over every translation unit (minutes).
+
+find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
+if(CLANG_FORMAT)
+  add_test(NAME style_formatting
+    COMMAND ${CMAKE_COMMAND} -DCLANG_FORMAT=${CLANG_FORMAT} -DSOURCE=${PROJECT_SOURCE_DIR}
+            -P ${PROJECT_SOURCE_DIR}/tests/support/check_format.cmake)
+  set_tests_properties(style_formatting PROPERTIES LABELS style TIMEOUT 120)
+endif()
+
+find_program(RUN_CLANG_TIDY NAMES run-clang-tidy-14 run-clang-tidy)
+if(RUN_CLANG_TIDY)
+  add_custom_target(tidy
+    COMMAND ${RUN_CLANG_TIDY} -quiet -p ${PROJECT_BINARY_DIR} "${PROJECT_SOURCE_DIR}/(service|tests)/.*[.]cpp$$"
+    USES_TERMINAL)
+endif()

@@ -1,0 +1,185 @@
+// Records to samples and back, names of fixed length, verdicts in words, and the log throttle.
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "service/dds/convert.hpp"
+#include "service/dds/rate_limit.hpp"
+#include "service/dds/topics.hpp"
+#include "service/dds/verdict_text.hpp"
+
+namespace adstar::dds {
+namespace {
+
+using runtime::Reason;
+using runtime::Verdict;
+
+TEST(DdsText, is_always_terminated_and_says_when_it_was_cut) {
+  char text[4];
+  EXPECT_TRUE(set_text(text, "abc"));
+  EXPECT_EQ(text_of(text), "abc");
+  EXPECT_FALSE(set_text(text, "abcd"));
+  EXPECT_EQ(text_of(text), "abc");
+  EXPECT_EQ(text[3], '\0');
+  EXPECT_TRUE(set_text(text, ""));
+  EXPECT_EQ(text_of(text), "");
+  EXPECT_EQ(std::string(text, 4), std::string(4, '\0'));
+}
+
+TEST(DdsText, without_a_terminator_ends_with_its_array) {
+  const char text[3] = {'a', 'b', 'c'};
+  EXPECT_EQ(text_of(text), "abc");
+}
+
+TEST(DdsConvert, a_command_keeps_every_field_even_the_senseless_ones) {
+  adstar_TorqueCommand sample{};
+  sample.commander = {1, 2};
+  sample.sequence_number = std::numeric_limits<std::uint64_t>::max();
+  sample.priority = -4;
+  sample.start_time_ns = std::numeric_limits<std::int64_t>::min();
+  sample.end_time_ns = 5;
+  sample.duration_ns = -6;
+  sample.torque_n_m = {std::numeric_limits<double>::infinity(), std::nan(""), -0.0};
+  const runtime::CommandRecord record = to_record(sample, 7, 8);
+  EXPECT_EQ(record.commander, (runtime::CommanderId{1, 2}));
+  EXPECT_EQ(record.sequence, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(record.spacecraft, 7U);
+  EXPECT_EQ(record.actuator, 8U);
+  EXPECT_EQ(record.priority, -4);
+  EXPECT_EQ(record.start_ns, std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(record.end_ns, 5);
+  EXPECT_EQ(record.duration_ns, -6);
+  EXPECT_TRUE(std::isinf(record.torque_n_m[0]));
+  EXPECT_TRUE(std::isnan(record.torque_n_m[1]));
+  EXPECT_TRUE(std::signbit(record.torque_n_m[2]));
+}
+
+TEST(DdsConvert, a_verdict_becomes_a_status) {
+  runtime::VerdictRecord record;
+  record.commander = {1, 2};
+  record.sequence = 3;
+  record.priority = 4;
+  record.verdict = Verdict::refused;
+  record.reason = Reason::no_authority;
+  record.step = 5;
+  record.time_ns = 6;
+  record.start_ns = 7;
+  record.end_ns = 8;
+  record.torque_n_m = {9, 10, 11};
+  const adstar_CommandStatus sample = to_sample(record, "sat1", "body", "fly");
+  EXPECT_EQ(text_of(sample.spacecraft), "sat1");
+  EXPECT_EQ(text_of(sample.actuator), "body");
+  EXPECT_EQ(text_of(sample.service), "fly");
+  EXPECT_EQ(sample.commander.high, 1U);
+  EXPECT_EQ(sample.commander.low, 2U);
+  EXPECT_EQ(sample.sequence_number, 3U);
+  EXPECT_EQ(sample.priority, 4);
+  EXPECT_EQ(sample.step, 5U);
+  EXPECT_EQ(sample.time_ns, 6);
+  EXPECT_EQ(sample.effective_start_time_ns, 7);
+  EXPECT_EQ(sample.effective_end_time_ns, 8);
+  EXPECT_EQ(sample.torque_applied_n_m.x, 9);
+  EXPECT_EQ(sample.torque_applied_n_m.y, 10);
+  EXPECT_EQ(sample.torque_applied_n_m.z, 11);
+  EXPECT_EQ(verdict_of(sample), Verdict::refused);
+  EXPECT_EQ(reason_of(sample), Reason::no_authority);
+}
+
+TEST(DdsConvert, an_enumerator_of_a_newer_program_is_not_taken_for_one_of_ours) {
+  adstar_CommandStatus sample{};
+  const std::uint32_t eight = 8;
+  const std::uint32_t nine = 9;
+  std::memcpy(&sample.verdict, &eight, sizeof eight);
+  std::memcpy(&sample.reason, &nine, sizeof nine);
+  EXPECT_FALSE(verdict_of(sample));
+  EXPECT_FALSE(reason_of(sample));
+}
+
+TEST(DdsConvert, motion_goes_to_the_field_of_its_name) {
+  runtime::TelemetryRecord record;
+  record.step = 1;
+  record.time_ns = 2;
+  record.flags = runtime::kFlagFinal;
+  record.q_IB = {0.1, 0.2, 0.3, 0.4};
+  record.omega_B_rad_s = {1, 2, 3};
+  record.H_I_n_m_s = {4, 5, 6};
+  record.Pi_B_n_m_s = {7, 8, 9};
+  record.rotational_energy_j = 10;
+  record.work_j = 11;
+  record.energy_residual_j = 12;
+  record.momentum_residual_I_n_m_s = {13, 14, 15};
+  const adstar_AttitudeState attitude = to_attitude(record, "sat1", "fly");
+  EXPECT_EQ(text_of(attitude.spacecraft), "sat1");
+  EXPECT_EQ(attitude.step, 1U);
+  EXPECT_EQ(attitude.time_ns, 2);
+  EXPECT_EQ(attitude.attitude_body_to_inertial.w, 0.1);
+  EXPECT_EQ(attitude.attitude_body_to_inertial.z, 0.4);
+  EXPECT_EQ(attitude.angular_velocity_body_rad_s.y, 2);
+  EXPECT_EQ(attitude.flags, static_cast<std::uint32_t>(adstar_FLAG_FINAL));
+  const adstar_MomentumState momentum = to_momentum(record, "sat1", "fly");
+  EXPECT_EQ(text_of(momentum.service), "fly");
+  EXPECT_EQ(momentum.momentum_inertial_n_m_s.x, 4);
+  EXPECT_EQ(momentum.momentum_body_n_m_s.z, 9);
+  EXPECT_EQ(momentum.rotational_energy_j, 10);
+  EXPECT_EQ(momentum.work_j, 11);
+  EXPECT_EQ(momentum.energy_residual_j, 12);
+  EXPECT_EQ(momentum.momentum_residual_inertial_n_m_s.y, 14);
+}
+
+TEST(DdsConvert, counts_beyond_32_bits_stay_at_the_most) {
+  runtime::StatusRecord record;
+  record.stopped = 1;
+  record.unresolved_spacecraft = 1ULL << 40;
+  record.commands_lost = 1ULL << 40;
+  ServiceFacts facts;
+  facts.service = "fly";
+  facts.instance = {1, 2};
+  const adstar_ServiceStatus sample = to_sample(record, facts);
+  EXPECT_EQ(sample.state, adstar_SERVICE_STOPPED);
+  EXPECT_EQ(sample.unresolved_spacecraft, std::numeric_limits<std::uint32_t>::max());
+  EXPECT_EQ(sample.commands_lost, 1ULL << 40);
+  EXPECT_EQ(sample.instance_low, 2U);
+}
+
+TEST(VerdictText, has_a_word_for_each_and_a_sentence_for_each_reason) {
+  std::set<std::string> words;
+  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Verdict::refused); ++i) {
+    words.insert(verdict_text(static_cast<Verdict>(i)));
+  }
+  EXPECT_EQ(words.size(), 8U);
+  EXPECT_FALSE(words.contains("unknown verdict"));
+  std::set<std::string> sentences;
+  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Reason::capacity); ++i) {
+    sentences.insert(reason_text(static_cast<Reason>(i)));
+    EXPECT_STRNE(reason_name(static_cast<Reason>(i)), "unknown reason");
+  }
+  EXPECT_EQ(sentences.size(), 9U);
+  EXPECT_FALSE(is_final(Verdict::accepted));
+  EXPECT_TRUE(is_final(Verdict::applied));
+}
+
+TEST(RateLimit, drops_the_rest_of_a_second_and_then_says_how_many) {
+  RateLimit limit(2);
+  const RateLimit::Clock::time_point start = RateLimit::Clock::now();
+  EXPECT_EQ(limit.admit(start), 0U);
+  EXPECT_EQ(limit.admit(start), 0U);
+  EXPECT_FALSE(limit.admit(start + std::chrono::milliseconds(1)));
+  EXPECT_FALSE(limit.admit(start + std::chrono::milliseconds(999)));
+  EXPECT_EQ(limit.admit(start + std::chrono::milliseconds(1000)), 2U);
+  EXPECT_EQ(limit.admit(start + std::chrono::milliseconds(1001)), 0U);
+}
+
+TEST(Topics, have_names_of_their_own) {
+  std::set<std::string> names;
+  std::apply([&](const auto&... topic) { (names.insert(topic.name), ...); }, kTopics);
+  EXPECT_EQ(names.size(), std::tuple_size_v<std::remove_const_t<decltype(kTopics)>>);
+}
+
+}  // namespace
+}  // namespace adstar::dds

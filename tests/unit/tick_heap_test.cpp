@@ -1,0 +1,55 @@
+// A beat that touches the heap may wait for a lock or a page: none may.
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+#include "service/runtime/tick.hpp"
+#include "tests/support/count_allocations.hpp"
+#include "tests/support/tick_scene.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+using test::allocation_count;
+using test::kMs;
+
+TEST(TickHeap, is_not_touched_by_a_run_with_commands_telemetry_and_snapshots) {
+  scene::Scene scene = test::tick_scene(5'000);
+  scene.telemetry = {1, 1, 1, {0, 1}};
+  MappedSegment segment = MappedSegment::create(2);
+  Tick tick(scene, segment);
+  for (std::uint64_t n = 1; n <= 4000; ++n) {
+    CommandRecord command;
+    command.commander = {n % 37, n % 11};
+    command.sequence = n;
+    command.spacecraft = n % 50 == 0 ? 77 : static_cast<std::uint32_t>(n % 2);
+    command.priority = static_cast<std::int32_t>(n % 3);
+    command.start_ns = static_cast<std::int64_t>(n % 400) * 3 * kMs;
+    command.duration_ns = static_cast<std::int64_t>(n % 17) * kMs;
+    command.torque_n_m = {n % 9 == 0 ? 1e3 : 1.0, 0, 0};
+    ASSERT_TRUE(segment->commands.push(command));
+  }
+  segment->bridge_sleeps = 1;
+  const std::atomic<bool> stop{false};
+  const std::uint64_t before = allocation_count();
+  tick.run(stop);
+  EXPECT_EQ(allocation_count() - before, 0U);
+  EXPECT_EQ(tick.report().commands_received.load(), 4000U);
+  EXPECT_GT(test::verdicts_of(segment).size(), 2000U);
+}
+
+TEST(TickHeap, is_not_touched_under_the_clock) {
+  scene::Scene scene = test::tick_scene(20);
+  scene.simulation.step_ns = kMs;
+  scene.simulation.duration_ns = 20 * kMs;
+  scene.simulation.pace = scene::Pace::clock;
+  MappedSegment segment = MappedSegment::create(2);
+  Tick tick(scene, segment);
+  const std::atomic<bool> stop{false};
+  const std::uint64_t before = allocation_count();
+  tick.run(stop);
+  EXPECT_EQ(allocation_count() - before, 0U);
+}
+
+}  // namespace
+}  // namespace adstar::runtime
