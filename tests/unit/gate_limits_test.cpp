@@ -206,8 +206,64 @@ TEST(CommandGateLimits, holds_a_command_to_the_end_of_time) {
   EXPECT_EQ(gate.window().window[0].end_ns, std::numeric_limits<std::int64_t>::max() - 1);
 }
 
-TEST(CommandGateLimits,
-     refuses_a_commander_for_which_no_memory_is_left_and_does_not_forget_a_busy_one) {
+TEST(CommandGateLimits, a_clamp_that_the_window_delays_stays_a_clamp) {
+  GateHarness gate({make_craft(1, Frame::body, {0.5, 0.5, 0.5})});
+  for (std::uint64_t n = 1; n <= 17; ++n) {
+    const auto start = static_cast<std::int64_t>(n) * 400'000;
+    gate.receive(command(kAlice, n, start, n == 17 ? 50 * kMs : start + 400'000));
+  }
+  gate.beat();
+  const auto verdicts = gate.beat();
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].verdict, Verdict::clamped);
+  EXPECT_EQ(verdicts[0].start_ns, 10 * kMs);
+}
+
+TEST(CommandGateLimits, refuses_for_want_of_capacity_who_finds_no_memory_and_recovers) {
+  constexpr int kActuators = 1000;
+  constexpr std::uint64_t kCommanders = 16;
+  GateHarness gate({make_craft(kActuators)});
+  std::uint64_t accepted = 0, without = 0;
+  CommandRecord last_refused;
+  for (std::uint64_t commander = 1; commander <= kCommanders; ++commander) {
+    for (std::uint32_t actuator = 0; actuator < kActuators; ++actuator) {
+      const auto start = static_cast<std::int64_t>(100 + commander) * kMs;
+      CommandRecord c = command({commander, 9}, 1, start, start + kMs);
+      c.actuator = actuator;
+      const VerdictRecord answer = gate.ask(c).at(0);
+      if (answer.verdict == Verdict::accepted) {
+        ++accepted;
+      } else {
+        ASSERT_EQ(answer.reason, Reason::capacity);
+        ++without;
+        last_refused = c;
+      }
+    }
+  }
+  EXPECT_GT(accepted, 3 * kActuators) << "room for some commanders on every actuator at once";
+  EXPECT_GT(without, 0U) << "memory without bound";
+  EXPECT_EQ(gate.ask(last_refused).at(0).reason, Reason::capacity);
+  std::uint64_t applied = 0;
+  for (const VerdictRecord& v : gate.run_until(200 * kMs)) {
+    applied += v.verdict == Verdict::applied ? 1 : 0;
+  }
+  EXPECT_EQ(applied, accepted);
+  last_refused.end_ns = 500 * kMs;
+  gate.receive(last_refused);
+  EXPECT_EQ(gate.beat().at(0).verdict, Verdict::applied_late);
+}
+
+TEST(CommandGateLimits, hears_one_commander_after_another_without_end) {
+  GateHarness gate;
+  for (std::uint64_t n = 1; n <= 40'000; ++n) {
+    gate.receive(command({n, n * n}, 1, gate.now_ns(), gate.now_ns() + 1));
+    const auto verdicts = gate.beat();
+    ASSERT_EQ(verdicts.size(), 1U) << n;
+    ASSERT_EQ(verdicts[0].verdict, Verdict::applied) << n;
+  }
+}
+
+TEST(CommandGateLimits, a_flood_of_strangers_does_not_make_it_forget_who_waits) {
   GateHarness gate({make_craft(1)}, 10 * kMs);
   // Each of these waits, so the memory of its stream may not be given away.
   std::vector<CommandRecord> busy;

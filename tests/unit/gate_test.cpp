@@ -299,6 +299,16 @@ TEST(CommandGate, a_newer_command_supersedes_what_would_begin_after_it) {
   EXPECT_EQ(verdicts.front().sequence, 3U);
 }
 
+TEST(CommandGate, says_at_which_step_a_command_was_superseded) {
+  GateHarness gate;
+  gate.receive(command(kAlice, 1, 90 * kMs, 95 * kMs));
+  gate.run_until(40 * kMs);
+  const auto verdicts = gate.ask(command(kAlice, 2, 80 * kMs, 85 * kMs));
+  ASSERT_EQ(story(verdicts, kAlice, 1), (Verdicts{Verdict::superseded}));
+  EXPECT_EQ(verdicts[0].step, 4U);
+  EXPECT_EQ(verdicts[0].time_ns, 40 * kMs);
+}
+
 TEST(CommandGate, a_newer_command_cuts_one_that_waits_and_begins_earlier) {
   GateHarness gate;
   gate.receive(command(kAlice, 1, 30 * kMs, 90 * kMs));
