@@ -12,6 +12,9 @@ namespace adstar::dds {
 namespace {
 
 void report(dds_entity_t entity, const char* ours, const char* theirs, std::uint32_t policy) {
+  if (policy == DDS_PARTITION_QOS_POLICY_ID) {
+    return;  // another partition is meant to be out of hearing
+  }
   static RateLimit limit(5);
   try {
     const auto dropped = limit.admit();

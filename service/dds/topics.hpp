@@ -23,6 +23,8 @@ struct Topic {
 
 /// The newest value, for late joiners too.
 inline constexpr Qos kLatest{Reliability::reliable, Durability::transient_local, 1};
+/// As a reader of a time series wants it: what comes between two looks is kept, up to a limit.
+inline constexpr Qos kSeries{Reliability::reliable, Durability::transient_local, 64};
 /// Answers: none may be displaced by the next one on its way; a late joiner gets the last.
 inline constexpr Qos kAnswers{Reliability::reliable, Durability::transient_local, 64};
 inline constexpr Qos kCommandsOut{Reliability::reliable, Durability::volatile_, 64};
@@ -37,9 +39,9 @@ inline constexpr std::tuple kTopics{
     Topic<adstar_CommandStatus>{&adstar_CommandStatus_desc, "adstar/command_status", kAnswers,
                                 kAnswers},
     Topic<adstar_AttitudeState>{&adstar_AttitudeState_desc, "adstar/attitude_state", kLatest,
-                                kLatest},
+                                kSeries},
     Topic<adstar_MomentumState>{&adstar_MomentumState_desc, "adstar/momentum_state", kLatest,
-                                kLatest},
+                                kSeries},
     Topic<adstar_FleetState>{&adstar_FleetState_desc, "adstar/fleet_state", kLatest, kLatest},
     Topic<adstar_ServiceStatus>{&adstar_ServiceStatus_desc, "adstar/service_status", kLatest,
                                 kLatest},

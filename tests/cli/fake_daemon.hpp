@@ -17,7 +17,8 @@
 
 namespace adstar::testing {
 
-/// A place on the bus where no other test is.
+/// A place on the bus where no other test is, whatever runs beside it: a domain of its own in this
+/// program, and a partition for the same test of another run.
 inline dds::ParticipantOptions own_place(std::uint32_t domain) {
   return {domain, "lo", "cli-test-" + std::to_string(getpid())};
 }

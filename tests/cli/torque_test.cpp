@@ -1,6 +1,7 @@
 // adstar torque against a daemon that the test plays.
 
 #include <cmath>
+#include <cstdint>
 #include <ostream>
 #include <set>
 
@@ -90,7 +91,8 @@ void PrintTo(const VerdictCase& the, std::ostream* stream) { *stream << the.name
 class VerdictOf : public ::testing::TestWithParam<VerdictCase> {};
 
 TEST_P(VerdictOf, a_command_has_its_exit_code_and_one_sentence) {
-  const auto place = own_place(63);
+  const auto place = own_place(86U + static_cast<std::uint32_t>(GetParam().verdict) +
+                               static_cast<std::uint32_t>(GetParam().reason));
   FakeDaemon daemon(place);
   Process client(at_place(pulse(), place));
   const int code = daemon.serve(client, [&](const adstar_TorqueCommand& command) {

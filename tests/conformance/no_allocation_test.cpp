@@ -68,14 +68,14 @@ std::vector<Torque<double>> every_torque() {
   std::vector<Torque<double>> torques;
   for (const Frame frame : {Frame::body, Frame::inertial}) {
     commanded.frame = frame;
-    torques.push_back(commanded);
-    torques.push_back(Constant<double>{frame, {0.01, 0.02, 0.03}});
-    torques.push_back(Harmonic<double>{frame, {0.01, 0.02, 0.03}, {1, 2, 3}, {0, 0, 0}});
-    torques.push_back(Table<double>{frame,
-                                    Interpolation::linear,
-                                    AfterEnd::hold,
-                                    {3'333'333, 44'444'444},
-                                    {{0.1, 0, 0}, {0, 0.1, 0}}});
+    torques.emplace_back(commanded);
+    torques.emplace_back(Constant<double>{frame, {0.01, 0.02, 0.03}});
+    torques.emplace_back(Harmonic<double>{frame, {0.01, 0.02, 0.03}, {1, 2, 3}, {0, 0, 0}});
+    torques.emplace_back(Table<double>{frame,
+                                       Interpolation::linear,
+                                       AfterEnd::hold,
+                                       {3'333'333, 44'444'444},
+                                       {{0.1, 0, 0}, {0, 0.1, 0}}});
   }
   return torques;
 }

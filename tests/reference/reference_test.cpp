@@ -65,14 +65,14 @@ State<double> run(const Case& c, std::int64_t h_ns) {
   std::vector<Torque<double>> torques;
   if (c.name == "paper_forced") {
     const auto along = [&](const V& axis, double amplitude, double frequency, double phase) {
-      torques.push_back(Harmonic<double>{Frame::body,
-                                         amplitude * rotate(c.Q, axis),
-                                         {frequency, frequency, frequency},
-                                         {phase, phase, phase}});
+      torques.emplace_back(Harmonic<double>{Frame::body,
+                                            amplitude * rotate(c.Q, axis),
+                                            {frequency, frequency, frequency},
+                                            {phase, phase, phase}});
     };
     along({1, 0, 0}, 0.02, 0.5, 0);
     along({0, 1, 0}, 0.015, 0.3, 1.5707963267948966);
-    torques.push_back(Constant<double>{Frame::body, rotate(c.Q, V{0, 0, 0.01})});
+    torques.emplace_back(Constant<double>{Frame::body, rotate(c.Q, V{0, 0, 0.01})});
   }
   for (std::int64_t t = 0; t < kEnd; t += h_ns) {
     EXPECT_TRUE(

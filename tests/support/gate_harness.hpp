@@ -8,6 +8,7 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "service/runtime/fleet.hpp"
@@ -59,7 +60,7 @@ inline scene::Spacecraft make_craft(int actuators, Frame frame = Frame::body,
   for (int i = 0; i < actuators; ++i) {
     Commanded<double> commanded;
     commanded.frame = frame;
-    craft.actuators.push_back({"a" + std::to_string(i), craft.torques.size(), limit});
+    craft.actuators.push_back({std::string("a").append(std::to_string(i)), craft.torques.size(), limit});
     craft.torques.emplace_back(commanded);
   }
   return craft;

@@ -1,6 +1,7 @@
 #pragma once
 // A scene for the tick without a scene file: free pace, two spacecraft with an actuator each.
 
+#include <cstring>
 #include <vector>
 
 #include "service/runtime/shared_segment.hpp"

@@ -29,8 +29,7 @@ double torque_of(std::uint64_t commander, std::uint64_t sequence) {
   return 1e-3 * static_cast<double>(commander) + 1e-5 * static_cast<double>(sequence);
 }
 
-// ---- against the model
-// ---------------------------------------------------------------------------
+// ---- against the model ----
 
 constexpr std::int64_t kPerStep = 10;
 constexpr std::int64_t kBeats = 250;
@@ -164,8 +163,7 @@ TEST_P(GateAgainstModel, answers_and_acts_as_the_painted_schedule_does) {
 
 INSTANTIATE_TEST_SUITE_P(seeds, GateAgainstModel, testing::Range(1, 25));
 
-// ---- whatever comes
-// ------------------------------------------------------------------------------
+// ---- whatever comes ----
 
 using Key = std::array<std::uint64_t, 5>;
 

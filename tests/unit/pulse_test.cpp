@@ -103,8 +103,7 @@ TEST(Pulse, from_two_actuators_at_once_is_the_sum) {
   EXPECT_LT(norm((H - H_0) - impulse), 1e-12 * norm(H_0));
 }
 
-// ---- in the body frame, against 113 bits
-// ---------------------------------------------------------
+// ---- in the body frame, against 113 bits ----
 
 constexpr std::int64_t kPulseFrom = 1'234'567'891, kPulseTo = 6'543'210'987;
 constexpr std::int64_t kRun = 10'000 * kMs;

@@ -138,8 +138,7 @@ TEST(SharedSegment, moves_with_its_memory_and_closes_once) {
   EXPECT_EQ(fcntl(fd, F_GETFD), -1);
 }
 
-// ---- wake and sleep
-// ------------------------------------------------------------------------------
+// ---- wake and sleep ----
 
 constexpr int kLong_ms = 60'000;
 

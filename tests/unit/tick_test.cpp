@@ -34,8 +34,7 @@ CommandRecord command(std::uint64_t sequence, std::int64_t start_ns, std::int64_
   return record;
 }
 
-// ---- steps and telemetry
-// -------------------------------------------------------------------------
+// ---- steps and telemetry ----
 
 TEST(Tick, takes_as_many_steps_as_the_duration_has) {
   MappedSegment segment = MappedSegment::create(2);
@@ -222,8 +221,7 @@ TEST(Tick, ends_where_63_bits_of_nanoseconds_do) {
   EXPECT_GT(tick.time_ns(), 0);
 }
 
-// ---- commands
-// ------------------------------------------------------------------------------------
+// ---- commands ----
 
 TEST(Tick, applies_a_command_from_the_ring_and_answers_it) {
   MappedSegment segment = MappedSegment::create(2);
@@ -342,8 +340,7 @@ TEST(Tick, may_be_commanded_from_another_thread_while_it_runs) {
   EXPECT_EQ(tick.report().verdicts_lost.load(), 0U);
 }
 
-// ---- pace
-// ----------------------------------------------------------------------------------------
+// ---- pace ----
 
 TEST(Tick, under_the_clock_never_runs_ahead_of_it) {
   scene::Scene scene = tick_scene(20);

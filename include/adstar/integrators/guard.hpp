@@ -31,6 +31,7 @@ struct StepLimits {
 /// `impulse` [N m s].
 template <class T>
 T angular_speed_bound_squared(const RigidBody<T>& body, const Vec3<T>& Pi_B, const T& impulse) {
+  using std::isnan;
   using std::sqrt;
   // Not max(): what is no number must stay none, or a ruined momentum would count as a slow one.
   const auto not_negative = [](const T& x) { return x < T(0) ? T(0) : x; };
@@ -46,7 +47,7 @@ T angular_speed_bound_squared(const RigidBody<T>& body, const Vec3<T>& Pi_B, con
   const T outer = (a1 + a3) * two_E - a1 * a3 * P_squared;
   const T inner = two_E >= a2 * P_squared ? (a1 + a2) * two_E - a1 * a2 * P_squared
                                           : (a2 + a3) * two_E - a2 * a3 * P_squared;
-  return not_negative(inner > outer || inner != inner ? inner : outer);
+  return not_negative(inner > outer || isnan(inner) ? inner : outer);
 }
 
 /// True only if one part will do, from |omega| ≤ (|H| + impulse)/J_min alone: no root, no rotation.
