@@ -58,7 +58,7 @@ class StepsOf : public testing::Test {
     return allocation_count() - before;
   }
 };
-TYPED_TEST_SUITE(StepsOf, test::SchemeTypes, test::SchemeNames);
+TYPED_TEST_SUITE(StepsOf, test::SchemeTypes);
 
 std::vector<Torque<double>> every_torque() {
   Commanded<double> commanded;

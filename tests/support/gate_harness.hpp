@@ -60,7 +60,8 @@ inline scene::Spacecraft make_craft(int actuators, Frame frame = Frame::body,
   for (int i = 0; i < actuators; ++i) {
     Commanded<double> commanded;
     commanded.frame = frame;
-    craft.actuators.push_back({std::string("a").append(std::to_string(i)), craft.torques.size(), limit});
+    craft.actuators.push_back(
+        {std::string("a").append(std::to_string(i)), craft.torques.size(), limit});
     craft.torques.emplace_back(commanded);
   }
   return craft;

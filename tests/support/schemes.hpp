@@ -1,7 +1,6 @@
 #pragma once
 // adstar::Schemes as a list of test types: a scheme that joins the list joins the suite.
 
-#include <string>
 #include <tuple>
 
 #include <gtest/gtest.h>
@@ -17,12 +16,5 @@ struct AsTestTypes<std::tuple<Scheme...>> {
   using type = testing::Types<Scheme...>;
 };
 using SchemeTypes = AsTestTypes<Schemes>::type;
-
-struct SchemeNames {
-  template <class Scheme>
-  static std::string GetName(int) {
-    return Scheme::kName;
-  }
-};
 
 }  // namespace adstar::test
