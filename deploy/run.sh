@@ -25,10 +25,14 @@ echo
 echo "\$ adstard configs/scenes/demo.toml"
 "$bin/adstard" configs/scenes/demo.toml 2>"$log" &
 daemon=$!
-if ! "$bin/adstar" list --timeout 15s; then
-  cat "$log" >&2
-  exit 1
-fi
+for attempt in 1 2 3 4 5; do
+  if "$bin/adstar" list --timeout 1s 2>/dev/null; then
+    break
+  elif [[ $attempt == 5 ]] || ! kill -0 "$daemon" 2>/dev/null; then
+    cat "$log" >&2
+    exit 1
+  fi
+done
 
 echo
 echo "\$ adstar torque sat1 --profile configs/scenes/demo_profile.csv"
@@ -45,5 +49,5 @@ kill -INT "$daemon"
 wait "$daemon"
 daemon=""
 echo
-echo "The run, as adstard summed it up:"
-sed 's/^/  /' "$log"
+echo "The run, as adstard sums it up:"
+sed -nE 's/.* adstard info: ([0-9]+ (steps|commands)|tick body|wake-up)/  \1/p' "$log"

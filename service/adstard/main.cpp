@@ -135,7 +135,7 @@ int fly(const scene::Scene& scene, const std::string& text, const std::string& f
   housekeeping.set_real_time(real_time);
 
   bool bridge_was_alive = true;
-  std::int64_t next_look = clock_ns(CLOCK_MONOTONIC) + kLookPeriod;
+  std::int64_t next_look = 0;
   while (!ended.load()) {
     if (const int signal = take_signal(signals); signal != 0) {
       spdlog::info("stopping: {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
