@@ -147,8 +147,9 @@ int fly(const scene::Scene& scene, const std::string& text, const std::string& f
       spdlog::warn("the bridge {}; the tick goes on, the bridge is started again", bridge.how());
     }
     bridge_was_alive = bridge_is_alive;
-    if (!bridge_is_alive && bridge.restart_when_due(now)) {
-      bridge_was_alive = true;
+    if (!bridge_is_alive) {
+      segment.restore_header();
+      bridge_was_alive = bridge.restart_when_due(now);
     }
     if (now >= next_look) {
       housekeeping.look(bridge.restarts(), false);

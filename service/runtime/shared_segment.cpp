@@ -47,9 +47,9 @@ MappedSegment MappedSegment::create(std::size_t fleet_size) {
     throw std::system_error(error, std::generic_category(), "mapping the shared segment");
   }
   auto* const segment = new (memory) SharedSegment;
-  segment->layout = kLayout;
-  segment->fleet_size = fleet_size;
-  return {fd, segment, bytes, fleet_size};
+  MappedSegment mapped(fd, segment, bytes, fleet_size);
+  mapped.restore_header();
+  return mapped;
 }
 
 MappedSegment MappedSegment::attach(int fd) {
@@ -87,6 +87,11 @@ MappedSegment::~MappedSegment() {
   if (fd_ >= 0) {
     close(fd_);
   }
+}
+
+void MappedSegment::restore_header() const noexcept {
+  segment_->layout = kLayout;
+  segment_->fleet_size = fleet_size_;
 }
 
 std::span<std::uint64_t> MappedSegment::fleet_storage() const noexcept {

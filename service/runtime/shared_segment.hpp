@@ -62,6 +62,10 @@ class MappedSegment {
   MappedSegment& operator=(MappedSegment&&) = delete;
   ~MappedSegment();
 
+  /// Writes the header again: what a bridge scribbled there as it died must not keep the next one
+  /// away.
+  void restore_header() const noexcept;
+
   SharedSegment& operator*() const noexcept { return *segment_; }
   SharedSegment* operator->() const noexcept { return segment_; }
   int fd() const noexcept { return fd_; }

@@ -55,7 +55,7 @@ class Tick {
 
  private:
   /// Commands judged in one beat, at most; more wait in the ring for the next.
-  static constexpr int kCommandsPerBeat = 1024;
+  static constexpr int kCommandsPerBeat = 256;
 
   void beat(std::uint64_t n, std::int64_t begun_ns) noexcept;
   void publish(std::uint64_t step, bool everything) noexcept;

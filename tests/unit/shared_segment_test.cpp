@@ -124,6 +124,15 @@ TEST(SharedSegment, does_not_believe_the_other_side_about_the_size_of_the_fleet)
   EXPECT_EQ(segment.fleet_storage().size(), 2 * fleet_words(2));
 }
 
+TEST(SharedSegment, can_be_attached_again_after_a_dying_bridge_scribbled_on_its_header) {
+  const MappedSegment segment = MappedSegment::create(3);
+  segment->layout = 0;
+  segment->fleet_size = 1'000'000;
+  EXPECT_THROW(MappedSegment::attach(dup(segment.fd())), std::runtime_error);
+  segment.restore_header();
+  EXPECT_EQ(MappedSegment::attach(dup(segment.fd())).fleet_size(), 3U);
+}
+
 TEST(SharedSegment, moves_with_its_memory_and_closes_once) {
   MappedSegment first = MappedSegment::create(2);
   SharedSegment* const memory = &*first;
