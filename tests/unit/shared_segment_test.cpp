@@ -128,7 +128,8 @@ TEST(SharedSegment, can_be_attached_again_after_a_dying_bridge_scribbled_on_its_
   const MappedSegment segment = MappedSegment::create(3);
   segment->layout = 0;
   segment->fleet_size = 1'000'000;
-  EXPECT_THROW(MappedSegment::attach(dup(segment.fd())), std::runtime_error);
+  const OwnFd refused{dup(segment.fd())};
+  EXPECT_THROW(MappedSegment::attach(refused.fd), std::runtime_error);
   segment.restore_header();
   EXPECT_EQ(MappedSegment::attach(dup(segment.fd())).fleet_size(), 3U);
 }
