@@ -3,9 +3,9 @@
 //
 // With θ = |psi|, s = θ², and the half angle so that nothing cancels at small θ:
 //   P = (1 - S)/s,  D = (S - C)/s,  S = sin(θ/2)/(θ/2) = 1 - s P,  C = cos(θ/2) = S - s D
-//   exp(psi) v      = v + A psi×v + B psi×(psi×v)      A = sin θ/θ = S C,  B = (1 - cos θ)/θ² =
-//   S²/2 dexp(psi) v     = v + B psi×v + E psi×(psi×v)      E = (1 - A)/θ² = P (1 + S) + S D
-//   dexpinv(psi, v) = v - ½ psi×v + g psi×(psi×v)      g = (1 - (θ/2) cot(θ/2))/θ² = D/S
+//   exp(psi) v      = v + A psi×v + B psi×(psi×v)    A = sin θ/θ = S C,  B = (1 - cos θ)/θ² = S²/2
+//   dexp(psi) v     = v + B psi×v + E psi×(psi×v)    E = (1 - A)/θ² = P (1 + S) + S D
+//   dexpinv(psi, v) = v - ½ psi×v + g psi×(psi×v)    g = (1 - (θ/2) cot(θ/2))/θ² = D/S
 // (Iserles, Munthe-Kaas, Nørsett, Zanna 2000; the half-angle forms are ours.) dexpinv is singular
 // at θ = 2π. Coefficients hold to a few units in the last place for 0 ≤ θ ≤ π
 // (tests/unit/so3_test.cpp).

@@ -3,14 +3,12 @@
 // to 7).
 //
 // Within a step R_IB(t) = R_n exp(psi), psi(t_n) = 0, and the Runge-Kutta step is taken on
-//   psi' = dexpinv(-psi, omega_B)                                                   (eq. 4)
-//   J'   = exp(psi) tau_B          impulse of body torques, in the frame of R_n     (the integral
-//   of eq. 7) G'   = tau_I                   impulse of inertial torques, in I W'   = omega_B · tau
-//   work
-// with Pi_B = exp(-psi) (R_nᵀ (H_n + G) + J), the coadjoint action (eq. 3, 7), and omega_B = J_B⁻¹
-// Pi_B. Then
-//   R_{n+1} = R_n exp(psi),   H_{n+1} = H_n + R_n J + G                             (eq. 7, times
-//   R_{n+1}).
+//   psi' = dexpinv(-psi, omega_B)                                                (eq. 4)
+//   J'   = exp(psi) tau_B       impulse of body torques, in the frame of R_n     (the integral of eq. 7)
+//   G'   = tau_I                impulse of inertial torques, in I
+//   W'   = omega_B · tau        work
+// with Pi_B = exp(-psi) (R_nᵀ (H_n + G) + J), the coadjoint action (eq. 3, 7), omega_B = J_B⁻¹ Pi_B. Then
+//   R_{n+1} = R_n exp(psi),   H_{n+1} = H_n + R_n J + G                          (eq. 7, times R_{n+1}).
 //
 // Order: the tableau's. H_I: constant to the last bit on a free body; obeys the impulse balance to
 // round-off always; its error under a body-frame torque is the quadrature's, O(h^p) of the impulse.
