@@ -11,8 +11,9 @@
 #include <utility>
 #include <variant>
 
-#include "adstar/integrators/coadjoint.hpp"
+#include "adstar/integrators/all.hpp"
 #include "adstar/integrators/guard.hpp"
+#include "adstar/state.hpp"
 #include "adstar/torques/all.hpp"
 
 namespace adstar {
@@ -100,7 +101,7 @@ T impulse_bound(const Segment<T>& s, const T& length_s) {
 
 /// `parts` equal steps of the scheme over a segment beginning at t_ns.
 template <class Scheme, class T>
-void run_segment(const RigidBody<T>& body, State<T>& state, std::span<const Torque<T>> torques,
+void run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const Torque<T>> torques,
                  const Segment<T>& segment, std::int64_t t_ns, const T& length_s,
                  std::int64_t parts) {
   const T h = length_s / T(parts);
@@ -113,9 +114,12 @@ void run_segment(const RigidBody<T>& body, State<T>& state, std::span<const Torq
       }
       return;
     }
-    const TorqueSample<T> tau{segment.body.start, {}};
     for (std::int64_t i = 0; i < parts; ++i) {
-      Scheme::step(body, state, h, body_torque([&](const Stage<T>&) { return tau; }));
+      Scheme::step(body, state, h,
+                   body_torque([x = segment.body.start.x, y = segment.body.start.y,
+                                z = segment.body.start.z](const Stage<T>&) {
+                     return TorqueSample<T>{{x, y, z}, {}};
+                   }));
     }
     return;
   }
@@ -140,8 +144,9 @@ void run_segment(const RigidBody<T>& body, State<T>& state, std::span<const Torq
 /// of integrators/all.hpp. An attitude that the step could not follow into a finite quaternion
 /// stays as it was and is reported; H_I takes its impulse all the same.
 template <class Scheme, class T>
-StepReport advance(const RigidBody<T>& body, State<T>& state, std::span<const Torque<T>> torques,
-                   std::int64_t t_ns, std::int64_t h_ns, const StepLimits& limits = {}) noexcept {
+StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
+                   std::span<const Torque<T>> torques, std::int64_t t_ns, std::int64_t h_ns,
+                   const StepLimits& limits = {}) noexcept {
   StepReport report;
   const std::int64_t end_ns = t_ns + h_ns;
   for (std::int64_t segments = 0; t_ns < end_ns; ++segments) {
@@ -167,7 +172,7 @@ StepReport advance(const RigidBody<T>& body, State<T>& state, std::span<const To
     if (!surely_one_part(body, state.H_I.value(), impulse, length_s, reach, limits)) {
       count = count_substeps(body, body_momentum(state), impulse, length_s, reach, limits);
     }
-    const Quat<T> q_before = state.q_IB;
+    const Quat<T> q_before{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
     detail::run_segment<Scheme>(body, state, torques, segment, t_ns, length_s, count.parts);
     report.parts += count.parts;
     report.unresolved_angle = report.unresolved_angle || !count.within_limit;

@@ -81,22 +81,17 @@ class Rotation {
   /// psi = 0.
   Rotation() : A_(1), B_(T(0.5)), E_(T(1) / T(6)), g_(T(1) / T(12)), C_(1), half_S_(T(0.5)) {}
 
-  explicit Rotation(const Vec3<T>& psi) : psi_(psi), s_(squared_norm(psi)) {
+  /// Inline where it is used: a step of a single body waits for it.
+  [[gnu::always_inline]] explicit Rotation(const Vec3<T>& psi)
+      : psi_{psi.x, psi.y, psi.z}, s_(squared_norm(psi)) {
     if constexpr (std::is_same_v<T, double>) {
       if (s_ <= kTinyAngleRad * kTinyAngleRad) {
         set_tiny();
         return;
       }
     }
-    const T u = T(0.25) * s_;
-    const detail::HalfAngleSeries<T> series = half_angle(u);
-    const T S = T(1) - s_ * series.P;
-    C_ = S - s_ * series.D;
-    half_S_ = T(0.5) * S;
-    A_ = S * C_;
-    B_ = half_S_ * S;
-    E_ = series.P * (T(1) + S) + S * series.D;
-    g_ = series.D / S;
+    const HalfAngle half = half_angle_of(s_);
+    set(half.P, half.D);
   }
 
   /// exp(psi) v
@@ -123,7 +118,21 @@ class Rotation {
   Quat<T> quaternion() const { return {C_, half_S_ * psi_.x, half_S_ * psi_.y, half_S_ * psi_.z}; }
 
  private:
-  static detail::HalfAngleSeries<T> half_angle(const T& u) {
+  using HalfAngle = detail::HalfAngleSeries<T>;
+
+  [[gnu::always_inline]] void set(const T& P, const T& D) {
+    const T S = T(1) - s_ * P;
+    C_ = S - s_ * D;
+    half_S_ = T(0.5) * S;
+    A_ = S * C_;
+    B_ = half_S_ * S;
+    E_ = P * (T(1) + S) + S * D;
+    g_ = D / S;
+  }
+
+  /// Out of line: the rarer angles leave the registers to the common ones.
+  [[gnu::noinline]] static HalfAngle half_angle_of(T s) {
+    const T u = T(0.25) * s;
     if constexpr (std::is_same_v<T, double>) {
       if (u <= 0.25 * kSmallAngleRad * kSmallAngleRad) {
         return detail::half_angle_series_small(u);
@@ -143,7 +152,7 @@ class Rotation {
   /// Taylor series in s for θ ≤ 1/32, cut where the next term, times the power of θ that it meets,
   /// is below 3e-17 (C and S/2, whose error would be a drift: below 2e-19); in pairs (Estrin 1960),
   /// since the step of a single body waits for them.
-  void set_tiny() {
+  [[gnu::always_inline]] void set_tiny() {
     const T s = s_, s2 = s_ * s_;
     A_ = (1 - s * (1. / 6)) + s2 * (1. / 120 - s * (1. / 5040));
     B_ = (0.5 - s * (1. / 24)) + s2 * (1. / 720);

@@ -18,14 +18,39 @@ void assign(std::array<double, N>& target, const Vec3<double>& v) noexcept {
   target = {v.x, v.y, v.z};
 }
 
+template <class Scheme>
+class SchemeStepper final : public Stepper {
+ public:
+  explicit SchemeStepper(const std::vector<Vehicle>& vehicles) {
+    bodies_.reserve(vehicles.size());
+    for (const Vehicle& vehicle : vehicles) {
+      bodies_.emplace_back(vehicle.body);
+    }
+  }
+
+  std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
+                   const StepLimits& limits) noexcept override {
+    std::size_t unresolved = 0;
+    for (std::size_t i = 0; i < vehicles.size(); ++i) {
+      Vehicle& vehicle = vehicles[i];
+      const StepReport report =
+          advance<Scheme, double>(bodies_[i], vehicle.state, vehicle.torques, t_ns, h_ns, limits);
+      vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
+                      (report.unresolved_edges ? kFlagUnresolvedEdges : 0U);
+      unresolved += report.resolved() ? 0 : 1;
+    }
+    return unresolved;
+  }
+
+ private:
+  std::vector<BodyOf<Scheme, double>> bodies_;
+};
+
 }  // namespace
 
 Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
              const StepLimits& limits)
     : limits_(limits) {
-  if (!with_scheme(scheme, [this](auto s) { step_all_ = &Fleet::step_all<decltype(s)>; })) {
-    throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
-  }
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
     Vehicle vehicle{RigidBody<double>(craft.inertia_body_kg_m2), craft.initial, craft.torques, {}};
@@ -33,19 +58,11 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
     vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
     vehicles_.push_back(std::move(vehicle));
   }
-}
-
-template <class Scheme>
-std::size_t Fleet::step_all(Fleet& fleet, std::int64_t t_ns, std::int64_t h_ns) noexcept {
-  std::size_t unresolved = 0;
-  for (Vehicle& vehicle : fleet.vehicles_) {
-    const StepReport report = advance<Scheme, double>(vehicle.body, vehicle.state, vehicle.torques,
-                                                      t_ns, h_ns, fleet.limits_);
-    vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
-                    (report.unresolved_edges ? kFlagUnresolvedEdges : 0U);
-    unresolved += report.resolved() ? 0 : 1;
+  if (!with_scheme(scheme, [this](auto s) {
+        stepper_ = std::make_unique<SchemeStepper<decltype(s)>>(vehicles_);
+      })) {
+    throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
   }
-  return unresolved;
 }
 
 TelemetryRecord sample(const Vehicle& vehicle) noexcept {

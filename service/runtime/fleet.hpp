@@ -2,6 +2,7 @@
 // The spacecraft of a scene in flight: what each needs for a step, and one step of all of them.
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -21,6 +22,15 @@ struct Vehicle {
   std::uint32_t flags = 0;              ///< kFlagUnresolved... of the last step
 };
 
+/// Steps all vehicles with one scheme; keeps what that scheme prepares once for each body.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// Over [t_ns, t_ns + h_ns]; returns how many could not be resolved.
+  virtual std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
+                           const StepLimits& limits) noexcept = 0;
+};
+
 class Fleet {
  public:
   /// `scheme` and `limits` are the scene's. Throws std::invalid_argument for an unknown scheme.
@@ -30,20 +40,16 @@ class Fleet {
   /// Steps every vehicle over [t_ns, t_ns + h_ns]. Never throws, never allocates.
   /// Returns how many could not be resolved.
   std::size_t step(std::int64_t t_ns, std::int64_t h_ns) noexcept {
-    return step_all_(*this, t_ns, h_ns);
+    return stepper_->step(vehicles_, t_ns, h_ns, limits_);
   }
 
   std::vector<Vehicle>& vehicles() noexcept { return vehicles_; }
   const std::vector<Vehicle>& vehicles() const noexcept { return vehicles_; }
 
  private:
-  using StepAll = std::size_t (*)(Fleet&, std::int64_t, std::int64_t) noexcept;
-  template <class Scheme>
-  static std::size_t step_all(Fleet& fleet, std::int64_t t_ns, std::int64_t h_ns) noexcept;
-
   std::vector<Vehicle> vehicles_;
   StepLimits limits_;
-  StepAll step_all_ = nullptr;  ///< the scheme, resolved once
+  std::unique_ptr<Stepper> stepper_;
 };
 
 /// Everything that is said of one vehicle at one instant; spacecraft, topics, step and time are the

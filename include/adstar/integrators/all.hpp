@@ -37,4 +37,11 @@ bool with_scheme(std::string_view name, Action&& action) {
   (std::make_index_sequence<std::tuple_size_v<Schemes>>{});
 }
 
+/// Claims of the scheme of that name; none claimed when there is none.
+inline Claims claims_of(std::string_view name) {
+  Claims claims;
+  with_scheme(name, [&](auto scheme) { claims = decltype(scheme)::kClaims; });
+  return claims;
+}
+
 }  // namespace adstar
