@@ -8,13 +8,13 @@
 
 #include "service/adstar/dds_options.hpp"
 #include "service/adstar/failure.hpp"
-#include "service/adstar/numbers.hpp"
 #include "service/adstar/output.hpp"
 #include "service/adstar/services.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
 #include "service/dds/convert.hpp"
+#include "service/report/numbers.hpp"
 #include "service/scene/scene.hpp"
 
 namespace adstar::cli {
@@ -35,19 +35,20 @@ std::string status_lines(const adstar_ServiceStatus& status) {
   std::string text = fmt::format(
       "{}, step {} ({} s), step of {}, {}, pace {}\n"
       "  commands: {} received, {} refused, {} lost; worst momentum residual {:.1e} of |H|\n",
-      status.state == adstar_SERVICE_RUNNING ? "running" : "stopped", counted(status.step),
-      seconds_text(status.time_ns), scene::format_duration(status.step_length_ns),
-      dds::text_of(status.scheme), dds::text_of(status.pace), counted(status.commands_received),
-      counted(status.commands_refused), counted(status.commands_lost),
-      status.worst_momentum_residual_relative);
+      status.state == adstar_SERVICE_RUNNING ? "running" : "stopped", report::counted(status.step),
+      report::seconds_text(status.time_ns), scene::format_duration(status.step_length_ns),
+      dds::text_of(status.scheme), dds::text_of(status.pace),
+      report::counted(status.commands_received), report::counted(status.commands_refused),
+      report::counted(status.commands_lost), status.worst_momentum_residual_relative);
   if (status.unresolved_spacecraft > 0) {
     text += fmt::format("  WARNING: {} spacecraft turn too fast for their step; see its log\n",
-                        counted(status.unresolved_spacecraft));
+                        report::counted(status.unresolved_spacecraft));
   }
   if (status.bridge_restarts > 0 || status.telemetry_lost > 0 || status.verdicts_lost > 0) {
-    text += fmt::format("  WARNING: {} bridge restarts, {} telemetry and {} verdicts lost\n",
-                        counted(status.bridge_restarts), counted(status.telemetry_lost),
-                        counted(status.verdicts_lost));
+    text +=
+        fmt::format("  WARNING: {} bridge restarts, {} telemetry and {} verdicts lost\n",
+                    report::counted(status.bridge_restarts), report::counted(status.telemetry_lost),
+                    report::counted(status.verdicts_lost));
   }
   return text;
 }
@@ -64,7 +65,7 @@ std::string service_text(const ListedService& service, bool all) {
   std::string text = fmt::format("service '{}': ", service.name);
   text += service.status ? status_lines(*service.status) : "no status yet\n";
   const std::size_t count = service.size();
-  text += fmt::format("  spacecraft: {}{}\n", counted(count),
+  text += fmt::format("  spacecraft: {}{}\n", report::counted(count),
                       service.roster_complete() ? "" : " heard so far; try a longer --timeout");
   std::size_t shown = 0;
   for (const auto& [first, members] : service.chunks) {
@@ -76,7 +77,7 @@ std::string service_text(const ListedService& service, bool all) {
     }
   }
   if (shown < count) {
-    text += fmt::format("    ... {} more; --all shows them\n", counted(count - shown));
+    text += fmt::format("    ... {} more; --all shows them\n", report::counted(count - shown));
   }
   return text;
 }

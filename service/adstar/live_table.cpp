@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "service/adstar/numbers.hpp"
 #include "service/adstar/services.hpp"
+#include "service/report/numbers.hpp"
 
 namespace adstar::cli {
 namespace {
@@ -99,7 +99,7 @@ std::string LiveTable::text(TerminalSize size, Clock::time_point now) const {
       std::min(kShown.size(), size.columns > left ? (size.columns - left) / kCell : 0);
 
   std::string text =
-      cut(fmt::format("{}, {} spacecraft; Ctrl-C ends", title_, counted(entries_.size())),
+      cut(fmt::format("{}, {} spacecraft; Ctrl-C ends", title_, report::counted(entries_.size())),
           size.columns);
   std::string line = fmt::format("{:<{}}{:>{}}", "spacecraft", name_width, "time [s]", kTime);
   for (std::size_t i = 0; i < columns; ++i) {
@@ -117,7 +117,7 @@ std::string LiveTable::text(TerminalSize size, Clock::time_point now) const {
     text += cut(line, size.columns);
   }
   if (rows < entries_.size()) {
-    text += cut(fmt::format("... {} more", counted(entries_.size() - rows)), size.columns);
+    text += cut(fmt::format("... {} more", report::counted(entries_.size() - rows)), size.columns);
   }
   if (!note_.empty()) {
     text += cut(note_, size.columns);

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "service/adstar/numbers.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/verdict_sentence.hpp"
 #include "service/dds/verdict_text.hpp"
+#include "service/report/numbers.hpp"
 
 namespace adstar::cli {
 namespace {
@@ -68,7 +68,7 @@ void ProfileRun::look_at_claim() {
       return;
     }
     base_ns_ = answer.start_ns + kLead_ns;
-    fmt::print("profile begins at {} s\n", seconds_text(base_ns_));
+    fmt::print("profile begins at {} s\n", report::seconds_text(base_ns_));
     state_ = State::sending;
     give_next();
   } else if (silent(claim_)) {

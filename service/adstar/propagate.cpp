@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "service/adstar/failure.hpp"
-#include "service/adstar/numbers.hpp"
 #include "service/adstar/output.hpp"
 #include "service/adstar/progress_bar.hpp"
 #include "service/adstar/propagate_plan.hpp"
@@ -17,6 +16,7 @@
 #include "service/adstar/unresolved.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
+#include "service/report/numbers.hpp"
 #include "service/runtime/fleet.hpp"
 #include "service/scene/scene.hpp"
 
@@ -68,7 +68,8 @@ void say_that_actuators_rest(const scene::Scene& scene) {
     }
   }
   if (count > 0) {
-    const std::string more = count > 1 ? fmt::format(" and {} more", counted(count - 1)) : "";
+    const std::string more =
+        count > 1 ? fmt::format(" and {} more", report::counted(count - 1)) : "";
     fmt::print(stderr,
                "adstar propagate: commanded actuator {}{} gives zero torque here; to command it, "
                "run adstard and `adstar torque`\n",
@@ -78,7 +79,7 @@ void say_that_actuators_rest(const scene::Scene& scene) {
 
 int propagate(const Options& options) {
   const scene::Scene scene = scene::load(options.scene);
-  const PropagatePlan plan = make_plan(scene.simulation, options.request);
+  const PropagatePlan plan = make_plan(scene, options.request);
   catch_stop_signals();
   Output output = options.output.empty() ? Output::to_stdout() : Output::to_file(options.output);
   runtime::Fleet fleet(scene.spacecraft, plan.scheme, scene.simulation.limits);
@@ -104,7 +105,7 @@ int propagate(const Options& options) {
         progress.show(done);
         if (stop_requested()) {
           throw Failure(kFailed, fmt::format("interrupted at {} s; no output file was written",
-                                             seconds_text(t_ns + plan.step_ns)));
+                                             report::seconds_text(t_ns + plan.step_ns)));
         }
       }
     }

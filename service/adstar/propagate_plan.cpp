@@ -44,11 +44,18 @@ void require_scheme(const std::string& name) {
 
 }  // namespace
 
-PropagatePlan make_plan(const scene::Simulation& simulation, const PropagateRequest& request) {
+PropagatePlan make_plan(const scene::Scene& scene, const PropagateRequest& request) {
+  const scene::Simulation& simulation = scene.simulation;
   PropagatePlan plan;
   plan.step_ns = request.step_ns.value_or(simulation.step_ns);
   plan.scheme = request.scheme.value_or(simulation.scheme);
   require_scheme(plan.scheme);
+  if (const scene::Spacecraft* forced = scene::first_forced(scene.spacecraft);
+      forced != nullptr && claims_of(plan.scheme).free_only) {
+    throw Failure(kUsage, fmt::format("--scheme: got '{}', which knows no torque, and the scene's "
+                                      "'{}' names one; try {}",
+                                      plan.scheme, forced->name, scheme_names().front()));
+  }
   if (!request.duration_ns && !simulation.duration_ns) {
     throw Failure(kUsage, "the scene is endless; say how long, for example --duration 100s");
   }

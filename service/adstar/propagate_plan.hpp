@@ -24,6 +24,6 @@ struct PropagatePlan {
 };
 
 /// Throws Failure (usage) for what does not come out in whole steps, naming the nearest that does.
-PropagatePlan make_plan(const scene::Simulation& simulation, const PropagateRequest& request);
+PropagatePlan make_plan(const scene::Scene& scene, const PropagateRequest& request);
 
 }  // namespace adstar::cli

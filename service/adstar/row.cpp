@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "service/adstar/numbers.hpp"
+#include "service/report/numbers.hpp"
 
 namespace adstar::cli {
 namespace {
@@ -49,11 +49,11 @@ void append_csv_header(std::string& text) {
 void append_csv(std::string& text, const Row& row) {
   append_csv_string(text, row.spacecraft);
   fmt::format_to(std::back_inserter(text), FMT_STRING(",{},"), row.step);
-  append_seconds(text, row.time_ns);
+  report::append_seconds(text, row.time_ns);
   for (const auto& value : row.values) {
     text += ',';
     if (value) {
-      append_number(text, *value);
+      report::append_number(text, *value);
     }
   }
   text += '\n';
@@ -63,11 +63,11 @@ void append_json(std::string& text, const Row& row) {
   text += "{\"spacecraft\":";
   append_json_string(text, row.spacecraft);
   fmt::format_to(std::back_inserter(text), FMT_STRING(",\"step\":{},\"time_s\":"), row.step);
-  append_seconds(text, row.time_ns);
+  report::append_seconds(text, row.time_ns);
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     fmt::format_to(std::back_inserter(text), FMT_STRING(",\"{}\":"), kColumns[i]);
     if (row.values[i] && std::isfinite(*row.values[i])) {
-      append_number(text, *row.values[i]);
+      report::append_number(text, *row.values[i]);
     } else {
       text += "null";
     }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "service/adstar/failure.hpp"
-#include "service/adstar/numbers.hpp"
+#include "service/report/numbers.hpp"
 #include "service/scene/files.hpp"
 #include "service/scene/table_file.hpp"
 
@@ -38,7 +38,7 @@ std::vector<ProfileRow> read_profile(const std::string& file) {
                           file)
             : fmt::format("'{}' begins at {} s, expected 0 or later: times count from the "
                           "profile's start; shift them",
-                          file, seconds_text(times.front())));
+                          file, report::seconds_text(times.front())));
   }
   std::vector<ProfileRow> rows;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {

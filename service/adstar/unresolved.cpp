@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "service/adstar/numbers.hpp"
+#include "service/report/numbers.hpp"
 
 namespace adstar::cli {
 namespace {
@@ -35,15 +35,15 @@ std::string Unresolved::warning(const scene::Scene& scene, std::int64_t step_ns)
       text += fmt::format(
           "{}{} of {} spacecraft ({}{}) {}, first in the step to {} s: their rows are not to be "
           "trusted; {}",
-          text.empty() ? "" : "\n", counted(count), counted(flags_.size()), names,
-          count > kNamed ? ", ..." : "", fault, seconds_text(first_ns_), remedy);
+          text.empty() ? "" : "\n", report::counted(count), report::counted(flags_.size()), names,
+          count > kNamed ? ", ..." : "", fault, report::seconds_text(first_ns_), remedy);
     }
   };
   const StepLimits& limits = scene.simulation.limits;
   const std::string step = scene::format_duration(step_ns);
   say(runtime::kFlagUnresolvedAngle,
       fmt::format("turned further in {} than {} sub-steps of {} rad reach", step, limits.substeps,
-                  short_number(limits.substep_angle_rad)),
+                  report::short_number(limits.substep_angle_rad)),
       "take a shorter --step, or raise simulation.substep_limit");
   say(runtime::kFlagUnresolvedEdges,
       fmt::format("met more than {} torque edges in one step of {}", limits.edges, step),

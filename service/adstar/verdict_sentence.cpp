@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "service/adstar/dds_options.hpp"
-#include "service/adstar/numbers.hpp"
 #include "service/dds/verdict_text.hpp"
+#include "service/report/numbers.hpp"
 #include "service/scene/scene.hpp"
 
 namespace adstar::cli {
@@ -17,12 +17,12 @@ std::string vector_text(const std::array<double, 3>& v) {
 }
 
 std::string in_force(const Answer& answer) {
-  return fmt::format("from {} s to {} s, torque {} N m", seconds_text(answer.start_ns),
-                     seconds_text(answer.end_ns), vector_text(answer.torque_n_m));
+  return fmt::format("from {} s to {} s, torque {} N m", report::seconds_text(answer.start_ns),
+                     report::seconds_text(answer.end_ns), vector_text(answer.torque_n_m));
 }
 
 std::string decided(const Answer& answer) {
-  return fmt::format("at step {} ({} s)", answer.step, seconds_text(answer.time_ns));
+  return fmt::format("at step {} ({} s)", answer.step, report::seconds_text(answer.time_ns));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "service/adstard/options.hpp"
 #include "service/adstard/scene_text.hpp"
 #include "service/log.hpp"
+#include "service/report/scene_report.hpp"
 #include "service/runtime/real_time.hpp"
 #include "service/runtime/shared_segment.hpp"
 #include "service/runtime/tick.hpp"
@@ -91,6 +92,8 @@ void log_start(const scene::Scene& scene) {
                s.pace == scene::Pace::clock ? "clock" : "free",
                s.pace == scene::Pace::clock && s.rate != 1.0 ? fmt::format(" x {}", s.rate) : "",
                s.duration_ns ? ", for " + scene::format_duration(*s.duration_ns) : ", endless");
+  const std::string models = report::scene_report(scene);
+  spdlog::info("models and leaves out:\n{}", models.substr(0, models.find_last_not_of('\n') + 1));
 }
 
 int fly(const scene::Scene& scene, const std::string& text, const std::string& file,

@@ -6,6 +6,7 @@
 // comes a period late or more has missed beats: they are counted, the grid keeps its phase, and
 // simulation time falls behind the wall's.
 
+#include <cmath>
 #include <cstdint>
 
 namespace adstar::runtime {
@@ -19,7 +20,7 @@ struct BeatClock {
 
 /// The rate is taken to a millionth.
 inline BeatClock make_beat_clock(std::int64_t base_ns, std::int64_t step_ns, double rate) {
-  const auto millionths = static_cast<std::int64_t>(rate * 1e6 + 0.5);
+  const std::int64_t millionths = std::llround(rate * 1e6);
   return {base_ns, step_ns, millionths > 0 ? millionths : 1, 0};
 }
 

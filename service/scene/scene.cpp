@@ -1,5 +1,10 @@
 #include "service/scene/scene.hpp"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "adstar/integrators/all.hpp"
 #include "service/scene/files.hpp"
 #include "service/scene/sections.hpp"
 
@@ -16,6 +21,12 @@ std::string lines_of(const std::vector<std::string>& complaints) {
 
 }  // namespace
 
+const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft) {
+  const auto found = std::find_if(spacecraft.begin(), spacecraft.end(),
+                                  [](const Spacecraft& craft) { return !craft.torques.empty(); });
+  return found == spacecraft.end() ? nullptr : &*found;
+}
+
 SceneError::SceneError(const std::vector<std::string>& complaints)
     : std::runtime_error(lines_of(complaints)) {}
 
@@ -24,8 +35,16 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   Complaints complaints(file.string());
   Keys root(tree, complaints);
   Scene scene;
-  scene.simulation = read_simulation(root);
+  SimulationSection section = read_simulation(root);
+  scene.simulation = std::move(section.simulation);
   Spacecrafts fleet = read_spacecraft(root, file, tables);
+  if (const Spacecraft* forced = first_forced(fleet.spacecraft);
+      forced != nullptr && claims_of(scene.simulation.scheme).free_only) {
+    section.scheme.refuse_as(
+        fmt::format("{}, which knows no torque", in_quotes(scene.simulation.scheme)),
+        fmt::format("a scheme that does, since {} names one", in_quotes(forced->name)),
+        in_quotes(scheme_names().front()));
+  }
   scene.telemetry = read_telemetry(root, scene.simulation.step_ns, fleet);
   scene.spacecraft = std::move(fleet.spacecraft);
   scene.service = read_service(root);

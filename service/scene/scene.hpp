@@ -81,6 +81,9 @@ struct Scene {
   Log log;
 };
 
+/// The first spacecraft that names a torque; null when all are free.
+const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft);
+
 /// Every complaint about one file, a line each: "file:line:col: key: got X, expected Y; try Z".
 class SceneError : public std::runtime_error {
  public:

@@ -13,7 +13,11 @@
 namespace adstar::scene {
 
 /// step_ns stays zero when the file gives none that is good.
-Simulation read_simulation(Keys& root);
+struct SimulationSection {
+  Simulation simulation;
+  Value scheme;  ///< where the file names it
+};
+SimulationSection read_simulation(Keys& root);
 
 /// [[spacecraft]] in order, fleets unfolded.
 struct Spacecrafts {

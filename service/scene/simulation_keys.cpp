@@ -137,13 +137,15 @@ void read_limits(Keys& keys, StepLimits& limits) {
 
 }  // namespace
 
-Simulation read_simulation(Keys& root) {
+SimulationSection read_simulation(Keys& root) {
   Keys keys = root.section("simulation", "[simulation] on a line of its own");
-  Simulation simulation;
+  SimulationSection section;
+  Simulation& simulation = section.simulation;
   simulation.step_ns =
       read_duration(keys.required("step", {kDurationRule, "\"10ms\""}), "10ms").value_or(0);
   const std::vector<std::string_view> schemes = scheme_names();
-  if (const auto scheme = read_choice(keys.optional("scheme"), schemes)) {
+  section.scheme = keys.optional("scheme");
+  if (const auto scheme = read_choice(section.scheme, schemes)) {
     simulation.scheme = schemes[*scheme];
   }
   simulation.duration_ns = read_run_length(keys.optional("duration"), simulation.step_ns);
@@ -154,7 +156,7 @@ Simulation read_simulation(Keys& root) {
       read_positive(keys.optional("accuracy_rad"), {"an angle above 0 rad", "1e-6"});
   read_limits(keys, simulation.limits);
   keys.refuse_unknown();
-  return simulation;
+  return section;
 }
 
 }  // namespace adstar::scene

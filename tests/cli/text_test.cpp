@@ -7,15 +7,15 @@
 #include <gtest/gtest.h>
 
 #include "service/adstar/live_table.hpp"
-#include "service/adstar/numbers.hpp"
 #include "service/adstar/row.hpp"
+#include "service/report/numbers.hpp"
 
 namespace adstar::cli {
 namespace {
 
 std::string number(double value) {
   std::string text;
-  append_number(text, value);
+  report::append_number(text, value);
   return text;
 }
 
@@ -30,20 +30,21 @@ TEST(Numbers, have_17_significant_digits) {
 }
 
 TEST(Numbers, seconds_come_from_nanoseconds_without_rounding) {
-  EXPECT_EQ(seconds_text(0), "0");
-  EXPECT_EQ(seconds_text(10'000'000), "0.01");
-  EXPECT_EQ(seconds_text(100'000'000'000), "100");
-  EXPECT_EQ(seconds_text(1), "0.000000001");
-  EXPECT_EQ(seconds_text(-1'500'000'000), "-1.5");
-  EXPECT_EQ(seconds_text(std::numeric_limits<std::int64_t>::max()), "9223372036.854775807");
-  EXPECT_EQ(seconds_text(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
+  EXPECT_EQ(report::seconds_text(0), "0");
+  EXPECT_EQ(report::seconds_text(10'000'000), "0.01");
+  EXPECT_EQ(report::seconds_text(100'000'000'000), "100");
+  EXPECT_EQ(report::seconds_text(1), "0.000000001");
+  EXPECT_EQ(report::seconds_text(-1'500'000'000), "-1.5");
+  EXPECT_EQ(report::seconds_text(std::numeric_limits<std::int64_t>::max()), "9223372036.854775807");
+  EXPECT_EQ(report::seconds_text(std::numeric_limits<std::int64_t>::min()),
+            "-9223372036.854775808");
 }
 
 TEST(Numbers, are_counted_in_thousands) {
-  EXPECT_EQ(counted(0), "0");
-  EXPECT_EQ(counted(999), "999");
-  EXPECT_EQ(counted(1'000), "1,000");
-  EXPECT_EQ(counted(1'234'567), "1,234,567");
+  EXPECT_EQ(report::counted(0), "0");
+  EXPECT_EQ(report::counted(999), "999");
+  EXPECT_EQ(report::counted(1'000), "1,000");
+  EXPECT_EQ(report::counted(1'234'567), "1,234,567");
 }
 
 Row some_row() {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace adstar::cli {
+namespace adstar::report {
 
 /// 17 significant digits, enough to get the same double back; "nan", "inf".
 void append_number(std::string& text, double value);
@@ -19,4 +19,4 @@ std::string counted(std::uint64_t count);
 /// Six significant digits, no more than it needs.
 std::string short_number(double value);
 
-}  // namespace adstar::cli
+}  // namespace adstar::report

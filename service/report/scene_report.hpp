@@ -5,8 +5,8 @@
 
 #include "service/scene/scene.hpp"
 
-namespace adstar::cli {
+namespace adstar::report {
 
 std::string scene_report(const scene::Scene& scene);
 
-}  // namespace adstar::cli
+}  // namespace adstar::report

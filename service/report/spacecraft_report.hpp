@@ -6,8 +6,8 @@
 
 #include "service/scene/scene.hpp"
 
-namespace adstar::cli {
+namespace adstar::report {
 
 std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft);
 
-}  // namespace adstar::cli
+}  // namespace adstar::report

@@ -1,4 +1,4 @@
-#include "service/adstar/numbers.hpp"
+#include "service/report/numbers.hpp"
 
 #include <array>
 #include <charconv>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace adstar::cli {
+namespace adstar::report {
 
 void append_number(std::string& text, double value) {
   if (std::isnan(value)) {
@@ -48,4 +48,4 @@ std::string counted(std::uint64_t count) {
 
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
-}  // namespace adstar::cli
+}  // namespace adstar::report

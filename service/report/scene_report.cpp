@@ -1,4 +1,4 @@
-#include "service/adstar/scene_report.hpp"
+#include "service/report/scene_report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "adstar/integrators/all.hpp"
-#include "service/adstar/numbers.hpp"
-#include "service/adstar/spacecraft_report.hpp"
+#include "service/report/numbers.hpp"
+#include "service/report/spacecraft_report.hpp"
 
-namespace adstar::cli {
+namespace adstar::report {
 namespace {
 
 struct SchemeFacts {
@@ -130,4 +130,4 @@ std::string scene_report(const scene::Scene& scene) {
          turn_report(scene) + telemetry_report(scene) + dds_report(scene) + kLeftOut;
 }
 
-}  // namespace adstar::cli
+}  // namespace adstar::report

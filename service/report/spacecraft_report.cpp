@@ -1,4 +1,4 @@
-#include "service/adstar/spacecraft_report.hpp"
+#include "service/report/spacecraft_report.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "adstar/bodies/rigid_body.hpp"
-#include "service/adstar/numbers.hpp"
+#include "service/report/numbers.hpp"
 
-namespace adstar::cli {
+namespace adstar::report {
 namespace {
 
 struct Range {
@@ -132,4 +132,4 @@ std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft) 
   return text;
 }
 
-}  // namespace adstar::cli
+}  // namespace adstar::report
