@@ -1,5 +1,6 @@
 #include "service/adstar/propagate_plan.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 
@@ -32,30 +33,29 @@ std::uint64_t whole_steps(std::string_view what, std::string_view option, std::i
                             format_duration(step_ns), option, choices));
 }
 
-void require_scheme(const std::string& name) {
-  if (with_scheme(name, [](auto) {})) {
-    return;
-  }
-  const auto known = scheme_names();
-  const auto near = scene::nearest_plausible(name, known);
-  throw Failure(kUsage, fmt::format("--scheme: got '{}', expected one of {}; try {}", name,
-                                    scene::joined(known), near.value_or(known.front())));
-}
-
 }  // namespace
+
+void require_scheme(const std::string& name, const char* option, const scene::Scene& scene) {
+  const auto known = scheme_names();
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    const auto near = scene::nearest_plausible(name, known);
+    throw Failure(kUsage, fmt::format("{}: got '{}', expected one of {}; try {}", option, name,
+                                      scene::joined(known), near.value_or(known.front())));
+  }
+  if (const scene::Spacecraft* forced = scene::first_forced(scene.spacecraft);
+      forced != nullptr && claims_of(name).free_only) {
+    throw Failure(kUsage, fmt::format("{}: got '{}', which knows no torque, and the scene's '{}' "
+                                      "names one; try {}",
+                                      option, name, forced->name, known.front()));
+  }
+}
 
 PropagatePlan make_plan(const scene::Scene& scene, const PropagateRequest& request) {
   const scene::Simulation& simulation = scene.simulation;
   PropagatePlan plan;
   plan.step_ns = request.step_ns.value_or(simulation.step_ns);
   plan.scheme = request.scheme.value_or(simulation.scheme);
-  require_scheme(plan.scheme);
-  if (const scene::Spacecraft* forced = scene::first_forced(scene.spacecraft);
-      forced != nullptr && claims_of(plan.scheme).free_only) {
-    throw Failure(kUsage, fmt::format("--scheme: got '{}', which knows no torque, and the scene's "
-                                      "'{}' names one; try {}",
-                                      plan.scheme, forced->name, scheme_names().front()));
-  }
+  require_scheme(plan.scheme, "--scheme", scene);
   if (!request.duration_ns && !simulation.duration_ns) {
     throw Failure(kUsage, "the scene is endless; say how long, for example --duration 100s");
   }

@@ -23,6 +23,9 @@ struct PropagatePlan {
   std::string scheme;
 };
 
+/// Throws Failure (usage) for a scheme that there is not, or that the scene's torques rule out.
+void require_scheme(const std::string& name, const char* option, const scene::Scene& scene);
+
 /// Throws Failure (usage) for what does not come out in whole steps, naming the nearest that does.
 PropagatePlan make_plan(const scene::Scene& scene, const PropagateRequest& request);
 

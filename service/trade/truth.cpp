@@ -1,0 +1,170 @@
+#include "service/trade/truth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "adstar/propagator.hpp"
+
+namespace adstar::trade {
+namespace {
+
+using Matrix = Eigen::Matrix<Wide, 3, 3>;
+
+Vec3<Wide> widened(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+
+Constant<Wide> widened(const Constant<double>& m) { return {m.frame, widened(m.torque_n_m)}; }
+Harmonic<Wide> widened(const Harmonic<double>& m) {
+  return {m.frame, widened(m.amplitude_n_m), widened(m.angular_frequency_rad_s),
+          widened(m.phase_rad)};
+}
+Table<Wide> widened(const Table<double>& m) {
+  Table<Wide> wide{m.frame, m.interpolation, m.after_end, m.time_ns, {}};
+  for (const Vec3<double>& torque : m.torque_n_m) {
+    wide.torque_n_m.push_back(widened(torque));
+  }
+  return wide;
+}
+/// Nobody commands here.
+Commanded<Wide> widened(const Commanded<double>& m) {
+  Commanded<Wide> wide;
+  wide.frame = m.frame;
+  return wide;
+}
+
+std::vector<Torque<Wide>> widened(const std::vector<Torque<double>>& torques) {
+  std::vector<Torque<Wide>> wide;
+  for (const Torque<double>& torque : torques) {
+    wide.push_back(std::visit([](const auto& m) -> Torque<Wide> { return widened(m); }, torque));
+  }
+  return wide;
+}
+
+/// The start as the double-precision run has it, to the bit.
+State<Wide> start_of(const scene::Spacecraft& craft) {
+  const State<double>& s = craft.initial;
+  return make_state(Quat<Wide>{s.q_IB.w, s.q_IB.x, s.q_IB.y, s.q_IB.z}, widened(s.H_I.value()));
+}
+
+TrueState true_state(const RigidBody<Wide>& body, const State<Wide>& state) {
+  return {state.q_IB, state.H_I.value(), body.energy(body_momentum(state))};
+}
+
+Matrix inertia(const scene::Spacecraft& craft) { return craft.inertia_body_kg_m2.cast<Wide>(); }
+
+std::vector<TrueState> in_closed_form(const scene::Spacecraft& craft,
+                                      const std::vector<std::int64_t>& times_ns) {
+  const RigidBody<Wide> body(inertia(craft));
+  const BodyOf<FreeExact, Wide> prepared(body);
+  std::vector<TrueState> states;
+  for (const std::int64_t t_ns : times_ns) {
+    State<Wide> state = start_of(craft);
+    FreeExact::step(prepared, state, seconds<Wide>(t_ns), NoTorque{});
+    states.push_back(true_state(body, state));
+  }
+  return states;
+}
+
+/// `steps` between one instant and the next.
+std::vector<TrueState> by_small_steps(const scene::Spacecraft& craft,
+                                      const std::vector<std::int64_t>& times_ns, std::int64_t h_ns,
+                                      const std::function<void(std::int64_t)>& look) {
+  constexpr std::int64_t kLookEvery = 256;
+  const RigidBody<Wide> body(inertia(craft));
+  const std::vector<Torque<Wide>> torques = widened(craft.torques);
+  State<Wide> state = start_of(craft);
+  std::vector<TrueState> states;
+  std::int64_t t_ns = 0, n = 0;
+  StepLimits limits;
+  limits.substeps = 1'000'000;
+  limits.edges = 1'000'000;
+  for (const std::int64_t end_ns : times_ns) {
+    while (t_ns < end_ns) {
+      const std::int64_t part_ns = std::min(h_ns, end_ns - t_ns);
+      advance<CoadjointFehlberg8>(body, state, std::span<const Torque<Wide>>(torques), t_ns,
+                                  part_ns, limits);
+      t_ns += part_ns;
+      if (++n % kLookEvery == 0) {
+        look(t_ns);
+      }
+    }
+    states.push_back(true_state(body, state));
+  }
+  return states;
+}
+
+double largest_angle(const std::vector<TrueState>& a, const std::vector<TrueState>& b) {
+  Wide largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Wide angle = angle_between(a[i].q_IB, b[i].q_IB);
+    if (!(angle <= largest)) {
+      largest = angle;
+    }
+  }
+  return static_cast<double>(largest);
+}
+
+/// A step at which order 8 is near the goal already: a tenth of a radian a step.
+std::int64_t first_step_ns(const scene::Spacecraft& craft, std::int64_t horizon_ns) {
+  const RigidBody<double> body(craft.inertia_body_kg_m2);
+  const double speed =
+      std::sqrt(angular_speed_bound_squared(body, body_momentum(craft.initial), 0.0));
+  const double h_s = speed > 0 ? 0.1 / speed : seconds<double>(horizon_ns);
+  const double h_ns = std::min(h_s * 1e9, static_cast<double>(horizon_ns));
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(h_ns));
+}
+
+}  // namespace
+
+Truth find_truth(const std::vector<scene::Spacecraft>& spacecraft,
+                 const std::vector<std::int64_t>& times_ns, double goal_rad,
+                 const Progress& progress) {
+  constexpr int kHalvings = 6;
+  const auto say = [&](double done) {
+    if (!progress(done)) {
+      throw Interrupted{};
+    }
+  };
+  Truth truth{times_ns, {}, 0, {}};
+  std::size_t free = 0;
+  const auto fleet = static_cast<double>(spacecraft.size());
+  for (const scene::Spacecraft& craft : spacecraft) {
+    const double before = static_cast<double>(truth.spacecraft.size()) / fleet;
+    say(before);
+    if (craft.torques.empty()) {
+      truth.spacecraft.push_back(in_closed_form(craft, times_ns));
+      ++free;
+      continue;
+    }
+    const std::int64_t horizon_ns = times_ns.back();
+    std::int64_t h_ns = first_step_ns(craft, horizon_ns);
+    const auto look = [&](std::int64_t) { say(before); };
+    std::vector<TrueState> coarse = by_small_steps(craft, times_ns, h_ns, look);
+    double apart = 0;
+    for (int halving = 0; halving < kHalvings && h_ns > 1; ++halving) {
+      h_ns = (h_ns + 1) / 2;
+      std::vector<TrueState> fine = by_small_steps(craft, times_ns, h_ns, look);
+      apart = largest_angle(coarse, fine);
+      coarse = std::move(fine);
+      if (apart <= goal_rad) {
+        break;
+      }
+    }
+    truth.uncertainty_rad = std::max(truth.uncertainty_rad, apart);
+    truth.spacecraft.push_back(std::move(coarse));
+  }
+  if (free == spacecraft.size()) {
+    truth.how = "closed form in 64-bit-mantissa arithmetic";
+  } else {
+    truth.how = fmt::format(
+        "coadjoint_fehlberg8 in 64-bit-mantissa arithmetic, the step halved until two runs agree "
+        "within {:.1e} rad{}",
+        truth.uncertainty_rad, free > 0 ? "; closed form where free" : "");
+  }
+  return truth;
+}
+
+}  // namespace adstar::trade
