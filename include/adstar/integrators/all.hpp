@@ -12,7 +12,8 @@
 
 namespace adstar {
 
-using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2>;
+using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2, CoadjointDopri5, CoadjointVerner6,
+                           CoadjointFehlberg8>;
 
 inline std::vector<std::string_view> scheme_names() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
