@@ -114,6 +114,8 @@ class Rotation {
             (xy + half.z) * v.x + (d + gp.y * psi_.y) * v.y + (yz - half.x) * v.z,
             (xz - half.y) * v.x + (yz + half.x) * v.y + (d + gp.z * psi_.z) * v.z};
   }
+  /// |psi|² [rad²]
+  const T& squared_angle() const { return s_; }
   /// The unit quaternion of exp(psi).
   Quat<T> quaternion() const { return {C_, half_S_ * psi_.x, half_S_ * psi_.y, half_S_ * psi_.z}; }
 

@@ -9,10 +9,15 @@
 #include <vector>
 
 #include "adstar/integrators/coadjoint.hpp"
+#include "adstar/integrators/lie_newmark.hpp"
+#include "adstar/integrators/quaternion.hpp"
+#include "adstar/integrators/rkmk4.hpp"
 
 namespace adstar {
 
-using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2>;
+using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2, CoadjointDopri5, CoadjointVerner6,
+                           CoadjointFehlberg8, QuaternionRk4, ProjectedRk4, ProjectedDopri5,
+                           ProjectedVerner6, ProjectedFehlberg8, Rkmk4, LieNewmark>;
 
 inline std::vector<std::string_view> scheme_names() {
   return []<std::size_t... I>(std::index_sequence<I...>) {

@@ -14,7 +14,17 @@
 // round-off always; its error under a body-frame torque is the quadrature's, O(h^p) of the impulse.
 // Energy: not conserved, error O(h^p). Cost: one evaluation of the torque a stage, none on a free
 // body.
+//
+// How far a stage turns. It reaches psi_i = h Σ_j a_ij psi'_j. With Σ_j |a_ij| ≤ 1 that is at most
+// h·max|psi'|, which the guard bounds before the step. High-order tableaus have entries that are
+// large and cancel (Fehlberg8: Σ_j |a_ij| up to 43, Σ_j a_ij = c_i ≤ 1); the bound by magnitudes
+// would split a step of 1 rad into 43 parts, where in truth
+//   psi_i = c_i h psi'_0 + h Σ_j a_ij (psi'_j - psi'_0)
+// and slopes that agree leave c_i h|omega|. How well they agree is known only inside the step, so it
+// is there that stages are watched: one past π, where dexpinv nears its pole at 2π, makes q_IB no
+// number, and advance() says so. The guard counts with c_i ≤ 1 (tests/conformance/overshoot_test.cpp).
 
+#include <limits>
 #include <utility>
 
 #include "adstar/bodies/rigid_body.hpp"
@@ -29,7 +39,7 @@ namespace adstar {
 template <class Tableau>
 struct Coadjoint {
   static constexpr int kOrder = Tableau::kOrder;
-  static constexpr double kStageReach = stage_reach<Tableau>();
+  static constexpr double kStageReach = 1;
   static constexpr Claims kClaims{.exact_momentum = true};
   template <class T>
   using Body = RigidBody<T>;
@@ -41,6 +51,9 @@ struct Coadjoint {
   }
 
  private:
+  static constexpr bool kOvershoots = stage_overshoot<Tableau>() > 1;
+  static constexpr double kFarthestSquared = 9.8696;  ///< π² [rad²]
+
   /// Slopes at the stages.
   template <class T>
   struct Slopes {
@@ -48,6 +61,7 @@ struct Coadjoint {
     Vec3<T> body_impulse[Tableau::kStages];
     Vec3<T> inertial_impulse[Tableau::kStages];
     T work[Tableau::kStages];
+    bool too_far = false;  ///< some stage turned past π
   };
 
   template <class T, class Torque, int... I>
@@ -73,6 +87,11 @@ struct Coadjoint {
     // Renormalised before the product, not after: the next step need not wait for it, and |q|²
     // stays 1 to round-off.
     state.q_IB = renormalised(q_n) * Rotation<T>(psi).quaternion();
+    if constexpr (kOvershoots) {
+      if (k.too_far) {
+        state.q_IB.w = std::numeric_limits<T>::quiet_NaN();
+      }
+    }
   }
 
   template <int I, class T, class Torque>
@@ -95,6 +114,9 @@ struct Coadjoint {
     } else {
       constexpr auto earlier = std::make_integer_sequence<int, I>{};
       const Rotation<T> turn(combined<I>(h, k.psi, earlier));
+      if constexpr (kOvershoots) {
+        k.too_far = k.too_far || turn.squared_angle() > T(kFarthestSquared);
+      }
       // Pi_B = exp(-psi) (R_nᵀ (H_n + G) + J)
       Vec3<T> Pi_stage = Pi_n;
       if constexpr (!Torque::kFree) {
@@ -149,6 +171,18 @@ struct CoadjointRk4 : Coadjoint<Rk4> {
 
 struct CoadjointMidpoint2 : Coadjoint<Midpoint2> {
   static constexpr const char* kName = "coadjoint_midpoint2";
+};
+
+struct CoadjointDopri5 : Coadjoint<Dopri5> {
+  static constexpr const char* kName = "coadjoint_dopri5";
+};
+
+struct CoadjointVerner6 : Coadjoint<Verner6> {
+  static constexpr const char* kName = "coadjoint_verner6";
+};
+
+struct CoadjointFehlberg8 : Coadjoint<Fehlberg8> {
+  static constexpr const char* kName = "coadjoint_fehlberg8";
 };
 
 }  // namespace adstar

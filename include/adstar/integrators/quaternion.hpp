@@ -1,0 +1,174 @@
+#pragma once
+// Runge-Kutta on attitude quaternion and body momentum: what is run most, and its projection onto
+// exact momentum.
+//
+//   q'    = ½ q (0, omega_B)                        (Hamilton 1844; Wie, Space Vehicle Dynamics, 5.3)
+//   Pi_B' = Pi_B × omega_B + tau_B + R_IBᵀ tau_I     (Euler 1758),   omega_B = J_B⁻¹ Pi_B
+//   G'    = R_IB tau_B + tau_I                      impulse, in I
+//   W'    = omega_B · (tau_B + R_IBᵀ tau_I)         work
+// as one system in R⁴ × R³ × R³ × R over any explicit tableau; then q is divided by its length.
+// Stages leave the unit sphere by O(h²), and R is read from q as it is: the extension of the
+// equations off the sphere is smooth and the exact flow stays on it, so the order is the tableau's.
+//
+// classical: H_{n+1} = R_{n+1} Pi_{n+1}. A free body's inertial momentum drifts, an error O(h^p).
+// projected: H_{n+1} = H_n + G, and Pi_B is read from it when the next step begins: H_I of a free
+// body is constant to the last bit and obeys the impulse balance to round-off always.
+// Energy: not conserved, O(h^p). Cost: one evaluation of the torque a stage, none on a free body,
+// whose G and W cost nothing.
+
+#include <limits>
+#include <utility>
+
+#include "adstar/bodies/rigid_body.hpp"
+#include "adstar/integrators/scheme.hpp"
+#include "adstar/integrators/stage_torque.hpp"
+#include "adstar/integrators/tableaus.hpp"
+#include "adstar/state.hpp"
+
+namespace adstar {
+namespace detail {
+
+/// q/|q|: a series of 1/√(1 + δ) where a step of moderate length leaves it, roots past that.
+template <class T>
+[[gnu::always_inline]] inline Quat<T> to_the_sphere(const Quat<T>& q) {
+  using std::sqrt;
+  const T delta = squared_norm(q) - T(1);
+  T scale = T(1) - delta * (T(0.5) - T(0.375) * delta);
+  // The next term is 5/16 δ³: 1e-23 here; other scalars want more and get the root.
+  constexpr double kNear = std::numeric_limits<T>::digits <= 53 ? 3e-8 : 0;
+  if (!(delta <= T(kNear) && delta >= T(-kNear))) {
+    scale = T(1) / sqrt(squared_norm(q));
+  }
+  return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
+}
+
+}  // namespace detail
+
+template <class Tableau, bool Projected>
+struct QuaternionRk {
+  static constexpr int kOrder = Tableau::kOrder;
+  static constexpr double kStageReach = 1;
+  static constexpr Claims kClaims{.exact_momentum = Projected};
+  template <class T>
+  using Body = RigidBody<T>;
+
+  /// Advances `state` by h [s]. Never throws, never allocates.
+  template <class T, class Torque>
+  static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque) {
+    step(body, state, h, torque, std::make_integer_sequence<int, Tableau::kStages>{});
+  }
+
+ private:
+  /// Slopes at the stages; those of q doubled.
+  template <class T>
+  struct Slopes {
+    Quat<T> q[Tableau::kStages];
+    Vec3<T> Pi[Tableau::kStages];
+    Vec3<T> impulse[Tableau::kStages];
+    T work[Tableau::kStages];
+  };
+
+  template <class T, class Torque, int... I>
+  [[gnu::always_inline]] static void step(const RigidBody<T>& body, State<T>& state, const T& h,
+                                          const Torque& torque, std::integer_sequence<int, I...>) {
+    const Quat<T> q_n{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
+    const Vec3<T> Pi_n = rotate_inverse(q_n, state.H_I.value());
+    Slopes<T> k;
+    (stage<I>(body, q_n, Pi_n, h, torque, k), ...);
+
+    const T half_h = T(0.5) * h;
+    Quat<T> q{q_n.w, q_n.x, q_n.y, q_n.z};
+    (add<!Tableau::b[I].is_zero()>(q, half_h, Tableau::b[I], k.q[I]), ...);
+    q = detail::to_the_sphere(q);
+    if constexpr (!Torque::kFree) {
+      Vec3<T> impulse_I{};
+      T work = T(0);
+      (add<!Tableau::b[I].is_zero()>(impulse_I, h, Tableau::b[I], k.impulse[I]), ...);
+      ((work = work + (h * Tableau::b[I].template as<T>()) * k.work[I]), ...);
+      if constexpr (Projected) {
+        state.H_I.add(impulse_I);
+      }
+      state.impulse_I.add(impulse_I);
+      state.work.add(work);
+    }
+    if constexpr (!Projected) {
+      Vec3<T> Pi{Pi_n.x, Pi_n.y, Pi_n.z};
+      (add<!Tableau::b[I].is_zero()>(Pi, h, Tableau::b[I], k.Pi[I]), ...);
+      const Vec3<T> H_I = rotate(q, Pi);
+      state.H_I = {{H_I.x, T(0)}, {H_I.y, T(0)}, {H_I.z, T(0)}};
+    }
+    state.q_IB = q;
+  }
+
+  template <int I, class T, class Torque>
+  [[gnu::always_inline]] static void stage(const RigidBody<T>& body, const Quat<T>& q_n,
+                                           const Vec3<T>& Pi_n, const T& h, const Torque& torque,
+                                           Slopes<T>& k) {
+    Quat<T> q{q_n.w, q_n.x, q_n.y, q_n.z};
+    Vec3<T> Pi{Pi_n.x, Pi_n.y, Pi_n.z};
+    combine<I>(q, Pi, h, k, std::make_integer_sequence<int, I>{});
+    const Vec3<T> omega_B = body.angular_velocity(Pi);
+    // 2 q' = q (0, omega_B)
+    k.q[I] = {-(q.x * omega_B.x) - (q.y * omega_B.y + q.z * omega_B.z),
+              q.w * omega_B.x + (q.y * omega_B.z - q.z * omega_B.y),
+              q.w * omega_B.y + (q.z * omega_B.x - q.x * omega_B.z),
+              q.w * omega_B.z + (q.x * omega_B.y - q.y * omega_B.x)};
+    k.Pi[I] = cross(Pi, omega_B);
+    if constexpr (!Torque::kFree) {
+      const T since = h * Tableau::c[I].template as<T>();
+      const Rotation<T> none;
+      const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q, none});
+      Vec3<T> total_B = tau.body;
+      k.impulse[I] = rotate(q, tau.body);
+      if constexpr (Torque::kInertial) {
+        total_B = total_B + rotate_inverse(q, tau.inertial);
+        k.impulse[I] = k.impulse[I] + tau.inertial;
+      }
+      k.Pi[I] = k.Pi[I] + total_B;
+      k.work[I] = dot(omega_B, total_B);
+    }
+  }
+
+  /// q_n + h Σ_{j<I} a_Ij q'_j and the same of Pi, zero entries left out at compile time.
+  template <int I, class T, int... J>
+  [[gnu::always_inline]] static void combine(Quat<T>& q, Vec3<T>& Pi, const T& h,
+                                             const Slopes<T>& k, std::integer_sequence<int, J...>) {
+    [[maybe_unused]] const T half_h = T(0.5) * h;
+    (add<!Tableau::a[I][J].is_zero()>(q, half_h, Tableau::a[I][J], k.q[J]), ...);
+    (add<!Tableau::a[I][J].is_zero()>(Pi, h, Tableau::a[I][J], k.Pi[J]), ...);
+  }
+
+  template <bool Present, class T>
+  [[gnu::always_inline]] static void add(Vec3<T>& sum, const T& h, const Fraction& weight,
+                                         const Vec3<T>& k) {
+    if constexpr (Present) {
+      sum = sum + (h * weight.template as<T>()) * k;
+    }
+  }
+  template <bool Present, class T>
+  [[gnu::always_inline]] static void add(Quat<T>& sum, const T& h, const Fraction& weight,
+                                         const Quat<T>& k) {
+    if constexpr (Present) {
+      const T w = h * weight.template as<T>();
+      sum = {sum.w + w * k.w, sum.x + w * k.x, sum.y + w * k.y, sum.z + w * k.z};
+    }
+  }
+};
+
+struct QuaternionRk4 : QuaternionRk<Rk4, false> {
+  static constexpr const char* kName = "quaternion_rk4";
+};
+struct ProjectedRk4 : QuaternionRk<Rk4, true> {
+  static constexpr const char* kName = "projected_rk4";
+};
+struct ProjectedDopri5 : QuaternionRk<Dopri5, true> {
+  static constexpr const char* kName = "projected_dopri5";
+};
+struct ProjectedVerner6 : QuaternionRk<Verner6, true> {
+  static constexpr const char* kName = "projected_verner6";
+};
+struct ProjectedFehlberg8 : QuaternionRk<Fehlberg8, true> {
+  static constexpr const char* kName = "projected_fehlberg8";
+};
+
+}  // namespace adstar
