@@ -15,6 +15,7 @@ struct Verb {
 Verb add_propagate(CLI::App& program);
 Verb add_check(CLI::App& program);
 Verb add_trade(CLI::App& program);
+Verb add_reproduce(CLI::App& program);
 Verb add_torque(CLI::App& program);
 Verb add_monitor(CLI::App& program);
 Verb add_list(CLI::App& program);

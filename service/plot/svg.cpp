@@ -141,7 +141,7 @@ class Drawing {
                         (kLeft + kFar) / 2, bottom_ + 42, escaped(panel_.x.label));
     const double middle = (top_ + bottom_) / 2;
     text += fmt::format(
-        R"(<text x="22" y="{0}" text-anchor="middle" transform="rotate(-90 22 {0})">{1}</text>)"
+        R"svg(<text x="22" y="{0}" text-anchor="middle" transform="rotate(-90 22 {0})">{1}</text>)svg"
         "\n",
         middle, escaped(panel_.y.label));
     return text;
