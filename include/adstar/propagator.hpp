@@ -33,9 +33,10 @@ namespace detail {
 /// All torques of one spacecraft over one smooth segment.
 template <class T>
 struct Segment {
-  Ramp<T> body, inertial;  ///< the models that are linear in time, summed
-  bool varying = false;    ///< some model is to be asked at every stage
-  T varying_bound{};       ///< of the norm of those [N m]
+  Ramp<T> body, inertial;         ///< the models that are linear in time, summed
+  bool varying = false;           ///< some model is to be asked at every stage
+  bool varying_inertial = false;  ///< and one of those in I
+  T varying_bound{};              ///< of the norm of those [N m]
 };
 
 template <class T>
@@ -55,6 +56,7 @@ Segment<T> make_segment(std::span<const Torque<T>> torques, std::int64_t t_ns) {
                    model.ramp_from(t_ns));
           } else {
             segment.varying = true;
+            segment.varying_inertial = segment.varying_inertial || model.frame == Frame::inertial;
             segment.varying_bound = segment.varying_bound + model.bound();
           }
         },
@@ -124,17 +126,23 @@ void run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
     return;
   }
   const T t_s = seconds<T>(t_ns);
+  const auto at = [&](const T& since) {
+    TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
+                        segment.inertial.start + since * segment.inertial.slope};
+    if (segment.varying) {
+      add_varying(tau, torques, t_s + since);
+    }
+    return tau;
+  };
+  const bool body_only = !inertial && !segment.varying_inertial;
   for (std::int64_t i = 0; i < parts; ++i) {
     const T begun = T(i) * h;
-    Scheme::step(body, state, h, mixed_torque([&](const Stage<T>& stage) {
-                   const T since = begun + stage.time_s;
-                   TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
-                                       segment.inertial.start + since * segment.inertial.slope};
-                   if (segment.varying) {
-                     add_varying(tau, torques, t_s + since);
-                   }
-                   return tau;
-                 }));
+    const auto torque = [&](const Stage<T>& stage) { return at(begun + stage.time_s); };
+    if (body_only) {
+      Scheme::step(body, state, h, body_torque(torque));
+    } else {
+      Scheme::step(body, state, h, mixed_torque(torque));
+    }
   }
 }
 

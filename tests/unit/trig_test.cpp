@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "adstar/sine.hpp"
 #include "tests/support/random_motion.hpp"
 #include "tests/support/wide.hpp"
 
@@ -152,6 +153,41 @@ TEST(SinCos, of_another_scalar_is_that_scalars_own) {
   EXPECT_EQ(sincos(x).sin, sin(x));
   EXPECT_EQ(sincos(x).cos, cos(x));
   EXPECT_EQ(sincos(1.25L).sin, std::sin(1.25L));
+}
+
+/// Absolute error of the sine for torques.
+double sine_error(double x) { return test::to_double(abs(Wide(sine(x)) - truth_of(x).sin)); }
+
+TEST(Sine, errs_by_less_than_4e_16_within_1e8) {
+  Generator random(11);
+  for (int i = 0; i < 20'000; ++i) {
+    const double x = std::pow(10, random.between(-12, 8)) * (i % 2 == 0 ? 1 : -1);
+    EXPECT_LT(sine_error(x), 4e-16) << x;
+  }
+}
+
+TEST(Sine, holds_its_bound_beside_every_multiple_of_a_quarter_turn) {
+  for (int n = -2000; n <= 2000; ++n) {
+    const double x = test::to_double(n * half_pi());
+    for (const double at : {std::nextafter(x, -1e9), x, std::nextafter(x, 1e9)}) {
+      EXPECT_LT(sine_error(at), 4e-16) << at;
+    }
+  }
+}
+
+TEST(Sine, keeps_the_relative_accuracy_of_a_small_argument) {
+  for (const double x : {1e-300, 1e-20, 1e-8, 1e-3, -1e-5}) {
+    EXPECT_NEAR(sine(x) / test::to_double(truth_of(x).sin), 1, 3e-16) << x;
+  }
+  EXPECT_EQ(sine(0.0), 0.0);
+}
+
+TEST(Sine, is_the_pairs_sine_beyond_1e8_and_nan_where_that_is) {
+  for (const double x : {1.7e8, -3e9, 5e15, 1e300}) {
+    EXPECT_NEAR(sine(x), sincos(x).sin, 6e-16) << x;
+  }
+  EXPECT_TRUE(std::isnan(sine(std::numeric_limits<double>::infinity())));
+  EXPECT_TRUE(std::isnan(sine(std::numeric_limits<double>::quiet_NaN())));
 }
 
 }  // namespace

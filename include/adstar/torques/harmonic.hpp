@@ -2,7 +2,7 @@
 // amplitude · sin(angular_frequency · t + phase), per axis; t is simulation time.
 
 #include "adstar/torques/frame.hpp"
-#include "adstar/trig.hpp"
+#include "adstar/sine.hpp"
 
 namespace adstar {
 
@@ -24,7 +24,7 @@ struct Harmonic {
 
  private:
   static T axis(const T& amplitude, const T& rate, const T& phase, const T& t_s) {
-    return amplitude == T(0) ? T(0) : amplitude * sincos(rate * t_s + phase).sin;
+    return amplitude == T(0) ? T(0) : amplitude * sine(rate * t_s + phase);
   }
 };
 
