@@ -34,8 +34,8 @@ struct LieNewmark {
   template <class T>
   using Body = RigidBody<T>;
 
-  /// Advances `state` by h [s]. Never throws, never allocates. Newton that does not settle leaves q_IB
-  /// no number and the momentum changed by the impulse alone.
+  /// Advances `state` by h [s]. Never throws, never allocates. A turn past π, or a
+  /// Newton that does not settle, leaves q_IB no number and H_I changed by the impulse alone.
   template <class T, class Torque>
   static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque) {
     const Quat<T> q_n{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
@@ -55,7 +55,8 @@ struct LieNewmark {
     // J y + ½ h y × J y = Pi_n + ½ h (J alpha_n + tau_{n+1})
     const Vec3<T> target = Pi_n + half * (Pi_rate + end.body);
     Vec3<T> y{predicted.x, predicted.y, predicted.z};
-    const bool settled = solve(body, half, target, y);
+    constexpr double kPiSquared = 9.8696;
+    const bool settled = turn.squared_angle() <= T(kPiSquared) && solve(body, half, target, y);
 
     if constexpr (!Torque::kFree) {
       const Vec3<T> impulse_I = half * (begin.impulse_I + end.impulse_I);
