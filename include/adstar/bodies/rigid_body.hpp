@@ -62,7 +62,7 @@ class RigidBody {
         diagonal_(J_.xy == T(0) && J_.xz == T(0) && J_.yz == T(0)) {}
 
   /// omega_B = J_B⁻¹ Pi_B [rad/s]
-  Vec3<T> angular_velocity(const Vec3<T>& Pi_B) const {
+  [[gnu::always_inline]] Vec3<T> angular_velocity(const Vec3<T>& Pi_B) const {
     if (diagonal_) {
       return {J_inverse_.xx * Pi_B.x, J_inverse_.yy * Pi_B.y, J_inverse_.zz * Pi_B.z};
     }

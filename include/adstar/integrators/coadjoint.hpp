@@ -54,23 +54,23 @@ struct Coadjoint {
   static constexpr bool kOvershoots = stage_overshoot<Tableau>() > 1;
   static constexpr double kFarthestSquared = 9.8696;  ///< π² [rad²]
 
-  /// Slopes at the stages.
-  template <class T>
+  /// Slopes at the stages; room only for what this torque has.
+  template <class T, class Torque>
   struct Slopes {
+    static constexpr int kForced = Torque::kFree ? 1 : Tableau::kStages;
     Vec3<T> psi[Tableau::kStages];
-    Vec3<T> body_impulse[Tableau::kStages];
-    Vec3<T> inertial_impulse[Tableau::kStages];
-    T work[Tableau::kStages];
+    Vec3<T> body_impulse[kForced];
+    Vec3<T> inertial_impulse[Torque::kInertial ? Tableau::kStages : 1];
+    T work[kForced];
     bool too_far = false;  ///< some stage turned past π
   };
 
   template <class T, class Torque, int... I>
-  [[gnu::always_inline]] static void step(const RigidBody<T>& body, State<T>& state, const T& h,
-                                          const Torque& torque,
-                                          std::integer_sequence<int, I...> stages) {
-    const Quat<T> q_n = state.q_IB;
+  static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque,
+                   std::integer_sequence<int, I...> stages) {
+    const Quat<T> q_n{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
     const Vec3<T> Pi_n = rotate_inverse(q_n, state.H_I.value());
-    Slopes<T> k;
+    Slopes<T, Torque> k;
     (stage<I>(body, q_n, Pi_n, h, torque, k), ...);
 
     const Vec3<T> psi = weighted(h, k.psi, stages);
@@ -96,9 +96,8 @@ struct Coadjoint {
   }
 
   template <int I, class T, class Torque>
-  [[gnu::always_inline]] static void stage(const RigidBody<T>& body, const Quat<T>& q_n,
-                                           const Vec3<T>& Pi_n, const T& h, const Torque& torque,
-                                           Slopes<T>& k) {
+  static void stage(const RigidBody<T>& body, const Quat<T>& q_n, const Vec3<T>& Pi_n, const T& h,
+                    const Torque& torque, Slopes<T, Torque>& k) {
     if constexpr (I == 0) {
       // psi = 0: exp and dexpinv are the identity.
       const Vec3<T> omega_B = body.angular_velocity(Pi_n);
@@ -120,7 +119,7 @@ struct Coadjoint {
         k.too_far = k.too_far || turn.squared_angle() > T(kFarthestSquared);
       }
       // Pi_B = exp(-psi) (R_nᵀ (H_n + G) + J)
-      Vec3<T> Pi_stage = Pi_n;
+      Vec3<T> Pi_stage{Pi_n.x, Pi_n.y, Pi_n.z};
       if constexpr (!Torque::kFree) {
         Pi_stage = Pi_stage + combined<I>(h, k.body_impulse, earlier);
       }
