@@ -21,8 +21,11 @@
 // would split a step of 1 rad into 43 parts, where in truth
 //   psi_i = c_i h psi'_0 + h Σ_j a_ij (psi'_j - psi'_0)
 // and slopes that agree leave c_i h|omega|. How well they agree is known only inside the step, so it
-// is there that stages are watched: one past π, where dexpinv nears its pole at 2π, makes q_IB no
-// number, and advance() says so. The guard counts with c_i ≤ 1 (tests/conformance/overshoot_test.cpp).
+// is there that stages are watched. A stage past π (dexpinv has its pole at 2π), or at a rate that
+// would turn it by more than 2 rad in the step, which no true motion within the guard's 1 rad has,
+// makes q_IB no number, and advance() says so. The rate is the sharper sign: Pi_B is carried over by
+// the attitude of the stage, so an error of angle e leaks e|Pi| into the lightest axis, and a needle
+// spins there at e|Pi|/J_min. The guard counts with c_i ≤ 1 (tests/conformance/overshoot_test.cpp).
 
 #include <limits>
 #include <utility>
@@ -53,6 +56,7 @@ struct Coadjoint {
  private:
   static constexpr bool kOvershoots = stage_overshoot<Tableau>() > 1;
   static constexpr double kFarthestSquared = 9.8696;  ///< π² [rad²]
+  static constexpr double kFastestSquared = 4;        ///< of h·omega_B [rad²]
 
   /// Slopes at the stages; room only for what this torque has.
   template <class T, class Torque>
@@ -62,7 +66,7 @@ struct Coadjoint {
     Vec3<T> body_impulse[kForced];
     Vec3<T> inertial_impulse[Torque::kInertial ? Tableau::kStages : 1];
     T work[kForced];
-    bool too_far = false;  ///< some stage turned past π
+    bool too_far = false;  ///< some stage turned past π, or too fast
   };
 
   template <class T, class Torque, int... I>
@@ -87,12 +91,23 @@ struct Coadjoint {
     }
     // Renormalised before the product, not after: the next step need not wait for it, and |q|²
     // stays 1 to round-off.
-    state.q_IB = renormalised(q_n) * Rotation<T>(psi).quaternion();
+    const Rotation<T> turn(psi);
+    state.q_IB = renormalised(q_n) * turn.quaternion();
     if constexpr (kOvershoots) {
-      if (k.too_far) {
+      const Vec3<T> Pi_end =
+          turn.exp_inverse(Torque::kFree ? Pi_n : rotate_inverse(q_n, state.H_I.value()));
+      if (k.too_far || !followed(turn, h, body.angular_velocity(Pi_end))) {
         state.q_IB.w = std::numeric_limits<T>::quiet_NaN();
       }
     }
+  }
+
+  /// Within π, and at no more than 2 rad a step; false for what is no number.
+  template <class T>
+  [[gnu::always_inline]] static bool followed(const Rotation<T>& turn, const T& h,
+                                              const Vec3<T>& omega_B) {
+    return (turn.squared_angle() <= T(kFarthestSquared)) &
+           (h * h * squared_norm(omega_B) <= T(kFastestSquared));
   }
 
   template <int I, class T, class Torque>
@@ -115,9 +130,6 @@ struct Coadjoint {
     } else {
       constexpr auto earlier = std::make_integer_sequence<int, I>{};
       const Rotation<T> turn(combined<I>(h, k.psi, earlier));
-      if constexpr (kOvershoots) {
-        k.too_far = k.too_far || turn.squared_angle() > T(kFarthestSquared);
-      }
       // Pi_B = exp(-psi) (R_nᵀ (H_n + G) + J)
       Vec3<T> Pi_stage{Pi_n.x, Pi_n.y, Pi_n.z};
       if constexpr (!Torque::kFree) {
@@ -128,6 +140,9 @@ struct Coadjoint {
       }
       const Vec3<T> omega_B = body.angular_velocity(turn.exp_inverse(Pi_stage));
       k.psi[I] = turn.dexpinv_minus(omega_B);
+      if constexpr (kOvershoots) {
+        k.too_far = k.too_far | !followed(turn, h, omega_B);
+      }
       if constexpr (!Torque::kFree) {
         const T since = h * Tableau::c[I].template as<T>();
         const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q_n, turn});
