@@ -1,8 +1,8 @@
 #pragma once
-// Lie-Newmark: the member beta = 0, gamma = ½ of Newmark's family on SO(3), explicit in attitude and
-// torque, implicit in the angular velocity (Simo and Vu-Quoc 1988 in convected form; the "explicit
-// Newmark algorithm" that Krysl and Endres 2005, Int. J. Numer. Meth. Engng 62:2154, start from).
-// Which of theirs this is, and why: service/decisions/0008.
+// Lie-Newmark: the member beta = 0, gamma = ½ of Newmark's family on SO(3) in convected form (Simo
+// and Vu-Quoc 1988), explicit in attitude and torque, implicit in the angular velocity. Of the explicit
+// Newmark forms that Krysl and Endres (2005, Int. J. Numer. Meth. Engng 62:2154) treat, which one this
+// is and why: service/decisions/0008.
 //
 //   alpha_n     = J⁻¹ (tau_n - omega_n × J omega_n)
 //   R_{n+1}     = R_n exp(h omega_n + ½ h² alpha_n)

@@ -44,8 +44,9 @@ struct Length {
     const T d = squared - T(1);
     inverse = T(1) - d * (T(0.5) - T(0.375) * d);
     twice_inverse_squared = T(2) - T(2) * d * (T(1) - d);
-    // The next terms are 5/16 d³ and 2 d³: 5e-23 here. Other scalars want more and get the root.
-    constexpr double kNear = std::numeric_limits<T>::digits <= 53 ? 3e-8 : 0;
+    // The next terms, 5/16 d³ and 2 d³, are far below round-off here. Wider scalars get the root.
+    constexpr int kDigits = std::numeric_limits<T>::digits;
+    constexpr double kNear = kDigits <= 24 ? 1e-3 : kDigits <= 53 ? 1e-6 : 0;
     if (!(d <= T(kNear) && d >= T(-kNear))) [[unlikely]] {
       inverse = one_over_root(squared);
       twice_inverse_squared = T(2) * inverse * inverse;
