@@ -72,6 +72,9 @@ template <class Scheme>
 class OrderOf : public testing::Test {
  public:
   static constexpr int kSeconds = 2;
+  /// Steps enough to be in the asymptotic range: many for Dormand and Prince, whose leading error is
+  /// small beside the next; few for order eight, or nothing would be left of 113 bits.
+  static constexpr int kCoarse = Scheme::kOrder == 5 ? 2048 : Scheme::kOrder > 6 ? 64 : 128;
 
   static State<Quad> initial(const RigidBody<Quad>& body) {
     const Quat<Quad> q = normalised(Quat<Quad>{Quad(3), Quad(-1), Quad(2), Quad(1)});
@@ -89,7 +92,7 @@ class OrderOf : public testing::Test {
       };
     }
     return PlainMotion(J, torque).run(test::plain_state(start.q_IB, body_momentum(start)), 0,
-                                      kSeconds, 16);
+                                      kSeconds, 64);
   }
 
   /// Errors at the end of a run of `steps` steps.
@@ -127,10 +130,12 @@ TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
       SCOPED_TRACE(std::string(load.name) +
                    (diagonal_tensor ? ", diagonal tensor" : ", full tensor"));
       const PlainState exact = this->truth(J, load);
-      const Errors coarse = this->errors(J, load, exact, 64);
-      const Errors fine = this->errors(J, load, exact, 128);
+      const Errors coarse = this->errors(J, load, exact, this->kCoarse);
+      const Errors fine = this->errors(J, load, exact, 2 * this->kCoarse);
       EXPECT_NEAR(this->order(coarse.attitude, fine.attitude), kStated, 0.15);
-      if (load.torque) {
+      if (!TypeParam::kClaims.exact_momentum) {
+        EXPECT_GT(this->order(coarse.momentum, fine.momentum), kStated - 0.25);
+      } else if (load.torque) {
         EXPECT_NEAR(this->order(coarse.momentum, fine.momentum), kStated, 0.25);
       } else {
         EXPECT_LT(test::to_double(fine.momentum), 1e-20) << "the truth itself has moved";
@@ -165,7 +170,7 @@ TYPED_TEST(OrderOf, is_as_stated_against_the_closed_form_of_an_axisymmetric_body
     }
     return angle_between(exact, state.q_IB);
   };
-  EXPECT_NEAR(this->order(error(64), error(128)), TypeParam::kOrder, 0.15);
+  EXPECT_NEAR(this->order(error(this->kCoarse), error(2 * this->kCoarse)), TypeParam::kOrder, 0.15);
 }
 
 }  // namespace
