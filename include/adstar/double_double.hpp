@@ -91,6 +91,7 @@ constexpr bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
   return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
 constexpr bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
+constexpr bool operator<=(const DoubleDouble& a, const DoubleDouble& b) { return a < b || a == b; }
 
 /// Sine and cosine of hi + lo, rounded to double: x less the nearest multiple of π/2, with π/2 in
 /// 106 bits, so that |x| = 1e15 still has its phase to 1e-16.

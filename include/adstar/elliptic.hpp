@@ -54,9 +54,9 @@ struct EllipticLadder {
   using W = WiderOf<T>;
   static constexpr int kMost = 24;
 
-  int rungs = 0;                      ///< a, g, gap of rung 0 to rungs - 1; above them, the mean
-  W a[kMost], g[kMost], gap[kMost];   ///< gap = a - g without cancellation
-  W mean;                             ///< π/(2K)
+  int rungs = 0;                     ///< a, g, gap of rung 0 to rungs - 1; above them, the mean
+  W a[kMost], g[kMost], gap[kMost];  ///< gap = a - g without cancellation
+  W mean;                            ///< π/(2K)
 };
 
 /// k' = √(1 - m) > 0 and m, each exact to round-off.
@@ -96,34 +96,58 @@ Jacobi<T> rung_down(const T& a, const T& g, const T& gap, const Jacobi<T>& up) {
           a * ((a + g) * (up.c * up.c) + T(2) * g * s2) * inverse};
 }
 
-/// Its inverse.
+/// s² + c² = 1 and d² = a²c² + g²s² again: what is left of the rungs' rounding is in s/c alone.
 template <class T>
-Jacobi<T> rung_up(const T& a, const T& g, const T& gap, const Jacobi<T>& down) {
+Jacobi<T> on_the_circle(const EllipticLadder<T>& l, const Jacobi<T>& j, int rung) {
   using std::sqrt;
-  const T s = down.s * (a + g) / (a + down.d);
-  const T r = sqrt(T(2) * a * (a + g) / ((a + down.d) * (down.d + g)));
-  return {s, down.c * r, T(0.5) * ((a + g) + gap * s * s) / r};
+  const T inverse = T(1) / sqrt(j.s * j.s + j.c * j.c);
+  const T s = j.s * inverse, c = j.c * inverse;
+  if (rung >= l.rungs) {
+    return {s, c, rounded<T>(l.mean)};
+  }
+  const T gs = rounded<T>(l.g[rung]) * s, ac = rounded<T>(l.a[rung]) * c;
+  return {s, c, sqrt(ac * ac + gs * gs)};
 }
 
 }  // namespace detail
 
-/// From the phase's sine and cosine to rung `to`.
-template <class T>
-Jacobi<T> elliptic_down(const EllipticLadder<T>& l, const SinCos<T>& phase, int to = 0) {
-  Jacobi<T> j{phase.sin, phase.cos, rounded<T>(l.mean)};
-  for (int n = l.rungs - 1; n >= to; --n) {
-    j = detail::rung_down(rounded<T>(l.a[n]), rounded<T>(l.g[n]), rounded<T>(l.gap[n]), j);
+namespace detail {
+template <class S, class T>
+Jacobi<S> down_to_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
+  Jacobi<S> j{S(phase.sin), S(phase.cos), rounded<S>(l.mean)};
+  for (int n = l.rungs - 1; n >= 1; --n) {
+    j = rung_down(rounded<S>(l.a[n]), rounded<S>(l.g[n]), rounded<S>(l.gap[n]), j);
   }
   return j;
 }
+}  // namespace detail
 
-/// From sn, cn, dn to rung `to`; on the last, s and c are sine and cosine of the phase.
+/// Rungs of which the rounding does not show; a longer ladder, beside the separatrix, is descended
+/// in the wider type.
+inline constexpr int kShortLadder = 6;
+
+/// Rung 1 of a phase's sine and cosine.
 template <class T>
-Jacobi<T> elliptic_up(const EllipticLadder<T>& l, Jacobi<T> j, int from, int to) {
-  for (int n = from; n < to; ++n) {
-    j = detail::rung_up(rounded<T>(l.a[n]), rounded<T>(l.g[n]), rounded<T>(l.gap[n]), j);
+Jacobi<T> elliptic_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
+  if (l.rungs <= kShortLadder) {
+    return detail::on_the_circle(l, detail::down_to_rung_1<T>(l, phase), 1);
   }
-  return j;
+  using W = WiderOf<T>;
+  const Jacobi<W> j = detail::down_to_rung_1<W>(l, phase);
+  return detail::on_the_circle(l, Jacobi<T>{rounded<T>(j.s), rounded<T>(j.c), T(0)}, 1);
+}
+
+/// sn, cn, dn from rung 1.
+template <class T>
+Jacobi<T> elliptic_rung_0(const EllipticLadder<T>& l, const Jacobi<T>& rung_1) {
+  return detail::on_the_circle(
+      l, detail::rung_down(T(1), rounded<T>(l.g[0]), rounded<T>(l.gap[0]), rung_1), 0);
+}
+
+/// s of rung 1 from sn and dn.
+template <class T>
+T sine_on_rung_1(const EllipticLadder<T>& l, const Jacobi<T>& rung_0) {
+  return rung_0.s * (T(1) + rounded<T>(l.g[0])) / (T(1) + rung_0.d);
 }
 
 /// sn, cn, dn of u + v (Jacobi 1829; DLMF 22.8). 1 - m s²s'² is written as a sum.
@@ -142,6 +166,10 @@ Jacobi<T> elliptic_sum(const Jacobi<T>& u, const Jacobi<T>& v, const T& m) {
 ///   angle(u) = 2 arg Θ(u + i b) = -Σ_{n≥1} 2^(1-n) atan(r_n sin φ_{n+1}),   φ_{n+1} at the phase 2ⁿζ,
 ///   y_{n+1} = (1 + k'_n) τ_n,   τ_n = y_n √((1 + y_n²)/(1 + k_n² y_n²)),
 /// and d angle/du at u = 0 is -Σ (a_n + g_n) r_n: what the mean rate has more than the rate there.
+/// Between two points the angle is
+///   angle(u + v) - angle(u) = angle(v) + 2 atan(q s_u s_v s_{u+v} / (1 + ½ ν (Σ s² - k² Π s²)))
+/// on rung 1, ν = k² y², q² = ν (1 + ν)(ν + k²): the addition theorem, DLMF 19.11(i), whose root is a
+/// perfect square. So nothing of a short step hangs on the phase at its start.
 /// (The doubling: DLMF 22.7(i), 20.7(iv); the sum of arc tangents is worked out from them here.)
 template <class T>
 struct ThirdKind {
@@ -150,6 +178,7 @@ struct ThirdKind {
   int terms = 0;
   T r[kMost], k_prime[kMost];  ///< from rung 1 on
   W mean_over_start{};         ///< Σ (a_n + g_n) r_n
+  T k_squared{}, nu{}, q{};    ///< of rung 1
 };
 
 /// `y`: sn/cn of the pole's part on rung 1.
@@ -172,7 +201,13 @@ ThirdKind<T> third_kind(const EllipticLadder<T>& l, WiderOf<T> y) {
     }
     const W ratio = gap / a;
     const W y2 = y * y;
-    const W tau = y * sqrt((W(1) + y2) / (W(1) + (ratio * (a + g) / a) * y2));
+    const W k2 = ratio * (a + g) / a;
+    const W tau = y * sqrt((W(1) + y2) / (W(1) + k2 * y2));
+    if (n == 1) {
+      k.k_squared = rounded<T>(k2);
+      k.nu = rounded<T>(k2 * y2);
+      k.q = rounded<T>(k2 * y) * sqrt((T(1) + k.nu) * (T(1) + rounded<T>(y2)));
+    }
     const W r = ratio * tau;
     k.r[n - 1] = rounded<T>(r);
     k.k_prime[n - 1] = rounded<T>(g / a);
@@ -186,10 +221,29 @@ ThirdKind<T> third_kind(const EllipticLadder<T>& l, WiderOf<T> y) {
   return k;
 }
 
+namespace detail {
+template <class T>
+T arc_tangent(const T& x) {
+  using std::atan;
+  if constexpr (std::is_same_v<T, double>) {
+    return adstar::atan(x);
+  } else {
+    return atan(x);
+  }
+}
+}  // namespace detail
+
+/// 2 atan(...) of the addition theorem; s of rung 1 at u, v and u + v.
+template <class T>
+T third_kind_sum_angle(const ThirdKind<T>& k, const T& s_u, const T& s_v, const T& s_sum) {
+  const T product = s_u * s_v * s_sum;
+  const T squares = s_u * s_u + s_v * s_v + s_sum * s_sum - k.k_squared * (product * product);
+  return T(2) * detail::arc_tangent(k.q * product / (T(1) + T(0.5) * k.nu * squares));
+}
+
 /// The periodic part at the point of rung 1.
 template <class T>
 T third_kind_angle(const EllipticLadder<T>& l, const ThirdKind<T>& k, const Jacobi<T>& rung_1) {
-  using std::atan;
   const T a = l.rungs > 1 ? rounded<T>(l.a[1]) : rounded<T>(l.mean);
   T s = rung_1.s, c = rung_1.c, d = rung_1.d / a;
   T sum = T(0), weight = T(1);
@@ -199,11 +253,7 @@ T third_kind_angle(const EllipticLadder<T>& l, const ThirdKind<T>& k, const Jaco
     s = (T(1) + k.k_prime[n]) * s * c * inverse;
     c = (c2 - k.k_prime[n] * s2) * inverse;
     d = (c2 + k.k_prime[n] * s2) * inverse;
-    if constexpr (std::is_same_v<T, double>) {
-      sum = sum + weight * adstar::atan(k.r[n] * s);
-    } else {
-      sum = sum + weight * atan(k.r[n] * s);
-    }
+    sum = sum + weight * detail::arc_tangent(k.r[n] * s);
     weight = T(0.5) * weight;
   }
   return -sum;

@@ -1,5 +1,7 @@
 // The closed form of the free body against values that share nothing with it, against itself in 113
 // bits at every shape and start, and as a flow: it composes, turns back, and keeps energy.
+#include "adstar/integrators/free_exact.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include "adstar/integrators/free_exact.hpp"
 #include "adstar/propagator.hpp"
 #include "tests/support/plain_motion.hpp"
 #include "tests/support/random_motion.hpp"
@@ -132,8 +133,7 @@ TEST(FreeExact, meets_the_papers_reference_in_one_shot) {
   ASSERT_EQ(name, "paper_free");
   const RigidBody<double> rigid(diagonal(0.9144, 1.098, 1.66));
   const FreeBody<double> body(rigid);
-  State<double> state =
-      make_state(Quat<double>{}, rigid.momentum({0.45549, 0.82623, 0.03476}));
+  State<double> state = make_state(Quat<double>{}, rigid.momentum({0.45549, 0.82623, 0.03476}));
   FreeExact::step(body, state, 100.0, NoTorque{});
   EXPECT_LT(angle_between(Quat<double>{value[1], value[2], value[3], value[4]}, state.q_IB), 1e-13);
   EXPECT_LT(norm(body_momentum(state) - V{value[5], value[6], value[7]}), 1e-13);

@@ -42,7 +42,8 @@ PrincipalFrame<T> principal_frame(const Sym3<T>& J) {
     }
     for (int p = 0; p < 2; ++p) {
       for (int q = p + 1; q < 3; ++q) {
-        if (m[p][q] == T(0)) {
+        if (abs(m[p][q]) <= T(1e-60) * (abs(m[p][p]) + abs(m[q][q]))) {  // turns nothing
+          m[p][q] = m[q][p] = T(0);
           continue;
         }
         const T zeta = (m[q][q] - m[p][p]) / (T(2) * m[p][q]);

@@ -42,13 +42,13 @@ struct FreeBody : RigidBody<T> {
 
   /// Constants of the motion about axis c; zero where the body is too symmetric to have it.
   struct About {
-    W rho_squared{};    ///< (B/A)² = I_b |I_c - I_a| / (I_a |I_c - I_b|)
+    W rho_squared{};  ///< (B/A)² = I_b |I_c - I_a| / (I_a |I_c - I_b|)
     W rho{};
-    W gamma{};          ///< C² = M_c² + γ M_b²,  γ = I_c |I_b - I_a| / (I_b |I_c - I_a|)
-    W lambda{};         ///< λ = this C: √(|I_c - I_a| |I_c - I_b| / (I_a I_b)) / I_c
-    W modulus{};        ///< m = this A²/C²: I_c |I_a - I_b| / (I_a |I_c - I_b|)
-    W pole{};           ///< 1/√modulus; zero on a symmetric top
-    W complement{};     ///< 1 - m = this D/C²: I_c / |I_c - I_b|
+    W gamma{};       ///< C² = M_c² + γ M_b²,  γ = I_c |I_b - I_a| / (I_b |I_c - I_a|)
+    W lambda{};      ///< λ = this C: √(|I_c - I_a| |I_c - I_b| / (I_a I_b)) / I_c
+    W modulus{};     ///< m = this A²/C²: I_c |I_a - I_b| / (I_a |I_c - I_b|)
+    W pole{};        ///< 1/√modulus; zero on a symmetric top
+    W complement{};  ///< 1 - m = this D/C²: I_c / |I_c - I_b|
   };
 
   FreeBody(const RigidBody<T>& body) : RigidBody<T>(body) {  // NOLINT: a body is a body
@@ -59,8 +59,8 @@ struct FreeBody : RigidBody<T> {
     unit = ldexp(T(1), -exponent);
     const Sym3<T>& J = body.inertia();
     const auto entry = [this](const T& x) { return W(unit * x); };
-    const PrincipalFrame<W> frame = principal_frame(Sym3<W>{
-        entry(J.xx), entry(J.yy), entry(J.zz), entry(J.xy), entry(J.xz), entry(J.yz)});
+    const PrincipalFrame<W> frame = principal_frame(
+        Sym3<W>{entry(J.xx), entry(J.yy), entry(J.zz), entry(J.xy), entry(J.xz), entry(J.yz)});
     axes = frame.axes;
     turned = !(axes == Quat<W>{W(1), W(0), W(0), W(0)});
     const auto& I = frame.moments;
@@ -171,8 +171,8 @@ struct FreeExact {
     const Quat<T> turn = turn_in_principal_axes(body, M, time);
     Vec3<T> v{turn.x, turn.y, turn.z};
     if (body.turned) {
-      const Quat<T> axes{rounded<T>(body.axes.w), rounded<T>(body.axes.x),
-                         rounded<T>(body.axes.y), rounded<T>(body.axes.z)};
+      const Quat<T> axes{rounded<T>(body.axes.w), rounded<T>(body.axes.x), rounded<T>(body.axes.y),
+                         rounded<T>(body.axes.z)};
       v = rotate(axes, v);
     }
     state.q_IB = renormalised(renormalised(q) * Quat<T>{turn.w, v.x, v.y, v.z});
@@ -249,8 +249,8 @@ struct FreeExact {
     // u = ± λ t:  u' = λ where c is the axis of the greatest moment, -λ where of the least.
     const W lambda = k.lambda * C;
     const W phase_rate = lambda * ladder.mean;
-    const W two_E = x1 * body.inverse_moment[0] + x2 * body.inverse_moment[1] +
-                    x3 * body.inverse_moment[2];
+    const W two_E =
+        x1 * body.inverse_moment[0] + x2 * body.inverse_moment[1] + x3 * body.inverse_moment[2];
     const W start_rate = (two_E + P * C * inverse_I_c) / P_and_C;  // ϑ' at u = 0
     const W correction = lambda * third.mean_over_start;
     const W mean_rate = greatest ? start_rate + correction : start_rate - correction;
@@ -283,20 +283,17 @@ struct FreeExact {
       start = {rounded<T>(M_b * over_B), rounded<T>(k.rho * M_a * over_B), T(1)};
     }
     start.d = rounded<T>(M_c / C);
-    const Jacobi<T> end = elliptic_sum(start, elliptic_down(ladder, turn_phase), rounded<T>(m));
+    const Jacobi<T> passed = elliptic_rung_1(ladder, turn_phase);
+    const Jacobi<T> end = elliptic_sum(start, elliptic_rung_0(ladder, passed), rounded<T>(m));
     const T A_t = rounded<T>(B / k.rho), B_t = rounded<T>(B), C_t = rounded<T>(C);
     const T a_0 = rounded<T>(M_a), b_0 = rounded<T>(M_b), c_0 = rounded<T>(M_c);
     const T a_t = A_t * end.c, b_t = B_t * end.s, c_t = C_t * end.d;
 
-    // ϑ(t): the periodic part by phases, so that a stay near the middle axis is not lost in sn, cn, dn.
     T periodic = T(0);
     if (third.terms > 0) {
-      const Jacobi<T> first = elliptic_up(ladder, start, 0, 1);
-      const Jacobi<T> top = elliptic_up(ladder, first, 1, ladder.rungs);
-      const SinCos<T> sum{top.s * turn_phase.cos + top.c * turn_phase.sin,
-                          top.c * turn_phase.cos - top.s * turn_phase.sin};
-      periodic = third_kind_angle(ladder, third, elliptic_down(ladder, sum, 1)) -
-                 third_kind_angle(ladder, third, first);
+      periodic = third_kind_angle(ladder, third, passed) +
+                 third_kind_sum_angle(third, sine_on_rung_1(ladder, start), passed.s,
+                                      sine_on_rung_1(ladder, end));
     }
     const SinCos<T> half_mean = phase_of<T>(T(0.5) * mean_angle);
     const SinCos<T> half_periodic = sincos(T(0.5) * periodic);
