@@ -94,14 +94,14 @@ constexpr bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return 
 constexpr bool operator<=(const DoubleDouble& a, const DoubleDouble& b) { return a < b || a == b; }
 
 /// Sine and cosine of hi + lo, rounded to double: x less the nearest multiple of π/2, with π/2 in
-/// 106 bits, so that |x| = 1e15 still has its phase to 1e-16.
+/// 106 bits, so that |x| up to 1e15 still has its phase to 1e-16.
 inline SinCos<double> sincos(const DoubleDouble& x) {
   constexpr DoubleDouble kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
   constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
   DoubleDouble r = x;
   double quarters = 0;
   if (!(std::fabs(x.hi) <= 0.75)) {
-    if (!(std::fabs(x.hi) <= 4e15)) {
+    if (!(std::fabs(x.hi) <= 1e15)) {
       const double none = std::numeric_limits<double>::quiet_NaN();
       return {none, none};
     }

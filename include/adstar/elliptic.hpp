@@ -87,13 +87,14 @@ EllipticLadder<T> elliptic_ladder(const WiderOf<T>& k_prime, const WiderOf<T>& m
 
 namespace detail {
 
-/// From rung n + 1 to rung n at the same phase; s' = 2a s/(a + g + (a - g) s²) (Gauss 1818).
+/// From rung n + 1 to rung n at the same phase: s' = 2a s/((a + g) + (a - g) s²) (Gauss 1818), made
+/// homogeneous in s and c, so that a rounding of s² + c² does not grow on the way.
 template <class T>
-Jacobi<T> rung_down(const T& a, const T& g, const T& gap, const Jacobi<T>& up) {
-  const T s2 = up.s * up.s;
-  const T inverse = T(1) / ((a + g) + gap * s2);
+Jacobi<T> rung_down(const T& a, const T& g, const Jacobi<T>& up) {
+  const T s2 = up.s * up.s, c2 = (a + g) * (up.c * up.c);
+  const T inverse = T(1) / (c2 + T(2) * a * s2);
   return {T(2) * a * up.s * inverse, T(2) * up.c * up.d * inverse,
-          a * ((a + g) * (up.c * up.c) + T(2) * g * s2) * inverse};
+          a * (c2 + T(2) * g * s2) * inverse};
 }
 
 /// s² + c² = 1 and d² = a²c² + g²s² again: what is left of the rungs' rounding is in s/c alone.
@@ -116,7 +117,7 @@ template <class S, class T>
 Jacobi<S> down_to_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
   Jacobi<S> j{S(phase.sin), S(phase.cos), rounded<S>(l.mean)};
   for (int n = l.rungs - 1; n >= 1; --n) {
-    j = rung_down(rounded<S>(l.a[n]), rounded<S>(l.g[n]), rounded<S>(l.gap[n]), j);
+    j = rung_down(rounded<S>(l.a[n]), rounded<S>(l.g[n]), j);
   }
   return j;
 }
@@ -140,8 +141,7 @@ Jacobi<T> elliptic_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
 /// sn, cn, dn from rung 1.
 template <class T>
 Jacobi<T> elliptic_rung_0(const EllipticLadder<T>& l, const Jacobi<T>& rung_1) {
-  return detail::on_the_circle(
-      l, detail::rung_down(T(1), rounded<T>(l.g[0]), rounded<T>(l.gap[0]), rung_1), 0);
+  return detail::on_the_circle(l, detail::rung_down(T(1), rounded<T>(l.g[0]), rung_1), 0);
 }
 
 /// s of rung 1 from sn and dn.

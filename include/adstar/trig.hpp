@@ -63,7 +63,7 @@ inline SinCos<double> sincos(double x) {
   }
 }
 
-/// Arc tangent, error below 1 ulp (tests/unit/trig_test.cpp): x beyond 1 by atan x = π/2 - atan 1/x,
+/// Arc tangent, error below 1.5 ulp (tests/unit/double_double_test.cpp): x beyond 1 by atan x = π/2 - atan 1/x,
 /// then atan x = atan c + atan((x - c)/(1 + x c)) with c the nearest eighth, and Taylor for |t| ≤ 1/16.
 inline double atan(double x) {
   constexpr double kAtan[] = {0x0.0p+0,

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "adstar/integrators/coadjoint.hpp"
+#include "adstar/integrators/free_exact.hpp"
 
 namespace adstar {
 
-using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2>;
+using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2, FreeExact>;
 
 inline std::vector<std::string_view> scheme_names() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
