@@ -1,5 +1,5 @@
 #pragma once
-// Sine and cosine of our own: the same bits on every machine and instruction set, which no libm
+// Sine, cosine and arc tangent of our own: the same bits on every machine and instruction set, which no libm
 // promises.
 //
 // double: |x| reduced to |r| ≤ π/4 by Cody and Waite (1980) with π/2 in four parts (26 bits each,
@@ -61,6 +61,39 @@ inline SinCos<double> sincos(double x) {
     default:
       return {-a.cos, a.sin};
   }
+}
+
+/// Arc tangent, error below 1.5 ulp (tests/unit/double_double_test.cpp): x beyond 1 by atan x = π/2 - atan 1/x,
+/// then atan x = atan c + atan((x - c)/(1 + x c)) with c the nearest eighth, and Taylor for |t| ≤ 1/16.
+inline double atan(double x) {
+  constexpr double kAtan[] = {0x0.0p+0,
+                              0x1.fd5ba9aac2f6ep-4,
+                              0x1.f5b75f92c80ddp-3,
+                              0x1.6f61941e4def1p-2,
+                              0x1.dac670561bb4fp-2,
+                              0x1.1e00babdefeb4p-1,
+                              0x1.4978fa3269ee1p-1,
+                              0x1.700a7c5784634p-1,
+                              0x1.921fb54442d18p-1};
+  constexpr double kHalfPi = 0x1.921fb54442d18p+0, kHalfPiRest = 0x1.1a62633145c07p-54;
+  if (std::isnan(x)) {
+    return x;
+  }
+  const double magnitude = std::fabs(x);
+  const bool beyond = magnitude > 1;
+  const double y = beyond ? 1 / magnitude : magnitude;
+  const int eighths = static_cast<int>(8 * y + 0.5);
+  const double c = 0.125 * eighths;
+  const double t = eighths == 0 ? y : (y - c) / (1 + y * c);
+  const double s = t * t;
+  constexpr double k3 = -1.0 / 3, k5 = 1.0 / 5, k7 = -1.0 / 7, k9 = 1.0 / 9, k11 = -1.0 / 11;
+  constexpr double k13 = 1.0 / 13;
+  const double tail = k3 + s * (k5 + s * (k7 + s * (k9 + s * (k11 + s * k13))));
+  double angle = kAtan[eighths] + (t + t * (s * tail));
+  if (beyond) {
+    angle = kHalfPi - (angle - kHalfPiRest);
+  }
+  return x < 0 ? -angle : angle;
 }
 
 template <class T>

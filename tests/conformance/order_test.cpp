@@ -97,7 +97,7 @@ class OrderOf : public testing::Test {
 
   /// Errors at the end of a run of `steps` steps.
   static Errors errors(const QuadMatrix& J, const Load& load, const PlainState& exact, int steps) {
-    const RigidBody<Quad> body(J);
+    const BodyOf<Scheme, Quad> body{RigidBody<Quad>(J)};
     State<Quad> state = initial(body);
     const Quad energy_0 = body.energy(body_momentum(state));
     const Quad h = Quad(kSeconds) / steps;
@@ -123,6 +123,9 @@ class OrderOf : public testing::Test {
 TYPED_TEST_SUITE(OrderOf, test::SchemeTypes);
 
 TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
+  if constexpr (TypeParam::kOrder == kExactOrder) {
+    GTEST_SKIP() << "no error but round-off: its own test judges it";
+  }
   constexpr int kStated = TypeParam::kOrder;
   for (const bool diagonal_tensor : {true, false}) {
     const QuadMatrix J = diagonal_tensor ? diagonal() : full();
@@ -147,12 +150,15 @@ TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
 }
 
 TYPED_TEST(OrderOf, is_as_stated_against_the_closed_form_of_an_axisymmetric_body) {
+  if constexpr (TypeParam::kOrder == kExactOrder) {
+    GTEST_SKIP() << "no error but round-off: its own test judges it";
+  }
   // J = (a, a, c): R(t) = exp(hat(H) t/a) R_0 exp(hat(z) (1 - c/a) omega_z t).
   QuadMatrix J = QuadMatrix::Zero();
   const Quad a("1.3"), c("0.7");
   J(0, 0) = J(1, 1) = a;
   J(2, 2) = c;
-  const RigidBody<Quad> body(J);
+  const BodyOf<TypeParam, Quad> body{RigidBody<Quad>(J)};
   const State<Quad> start = this->initial(body);
   const V omega_B = body.angular_velocity(body_momentum(start));
   const Quad T(this->kSeconds);

@@ -31,7 +31,7 @@ Eigen::Matrix3d inertia() {
 template <class Scheme>
 class Advance : public testing::Test {
  public:
-  RigidBody<double> body{inertia()};
+  BodyOf<Scheme, double> body{RigidBody<double>(inertia())};
   State<double> start = spinning({0.45549, 0.82623, 0.03476});
 
   State<double> spinning(const V& omega_B) const {
@@ -52,7 +52,7 @@ class Advance : public testing::Test {
     return state;
   }
 };
-TYPED_TEST_SUITE(Advance, test::SchemeTypes);
+TYPED_TEST_SUITE(Advance, test::ForcedSchemeTypes);
 
 Commanded<double> pulse(Frame frame, std::int64_t start_ns, std::int64_t end_ns, const V& torque) {
   Commanded<double> commanded;

@@ -2,6 +2,7 @@
 // adstar::Schemes as a list of test types: a scheme that joins the list joins the suite.
 
 #include <tuple>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -16,5 +17,13 @@ struct AsTestTypes<std::tuple<Scheme...>> {
   using type = testing::Types<Scheme...>;
 };
 using SchemeTypes = AsTestTypes<Schemes>::type;
+
+/// Those that know a torque.
+template <class... Scheme>
+auto forced(std::tuple<Scheme...>) {
+  return std::tuple_cat(
+      std::conditional_t<Scheme::kClaims.free_only, std::tuple<>, std::tuple<Scheme>>{}...);
+}
+using ForcedSchemeTypes = AsTestTypes<decltype(forced(Schemes{}))>::type;
 
 }  // namespace adstar::test
