@@ -1,5 +1,6 @@
 #include "adstar/bodies/rigid_body.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -132,6 +133,42 @@ TEST(PrincipalMoments, survive_products_of_inertia_that_are_nearly_nothing) {
     EXPECT_NEAR(moments[1], 2, 4 * kEpsilon) << tiny;
     EXPECT_NEAR(moments[2], 3, 4 * kEpsilon) << tiny;
   }
+}
+
+/// Largest entry of Rᵀ J R - diag(moments), R from principal to body axes.
+double off_the_axes(const PrincipalFrame<double>& frame, const Eigen::Matrix3d& J) {
+  const Eigen::Matrix3d R = to_eigen(frame.axes).toRotationMatrix();
+  const Eigen::Vector3d moments(frame.moments[0], frame.moments[1], frame.moments[2]);
+  return (R.transpose() * J * R - Eigen::Matrix3d(moments.asDiagonal())).cwiseAbs().maxCoeff();
+}
+
+TEST(PrincipalFrame, makes_the_tensor_diagonal_at_every_scale_and_shape) {
+  Generator random(25);
+  for (const Eigen::Vector3d& shape : kShapes) {
+    for (const double scale : {1e-120, 1e-9, 1.0, 1e9, 1e120}) {
+      for (int i = 0; i < 50; ++i) {
+        const Eigen::Matrix3d J =
+            scale * test::rotated_inertia(shape, test::unit_quaternion(random));
+        const RigidBody<double> body(J);
+        ASSERT_EQ(body.moments(), principal_moments(packed(J)));
+        ASSERT_LT(off_the_axes({body.moments(), body.principal_axes()}, J),
+                  32 * kEpsilon * scale * shape.maxCoeff())
+            << "shape " << shape.transpose() << ", scale " << scale;
+        ASSERT_NEAR(squared_norm(body.principal_axes()), 1, 4 * kEpsilon);
+      }
+    }
+  }
+}
+
+TEST(PrincipalFrame, of_a_diagonal_tensor_permutes_its_axes) {
+  std::array<double, 3> moments{1, 2, 3};
+  do {
+    const Eigen::Matrix3d J = Eigen::Vector3d(moments[0], moments[1], moments[2]).asDiagonal();
+    const auto frame = principal_frame(packed(J));
+    EXPECT_EQ(frame.moments, (std::array<double, 3>{1, 2, 3}));
+    EXPECT_LT(off_the_axes(frame, J), 8 * kEpsilon) << moments[0] << moments[1] << moments[2];
+  } while (std::next_permutation(moments.begin(), moments.end()));
+  EXPECT_EQ(principal_frame(Sym3<double>{1, 2, 3, 0, 0, 0}).axes, Quat<double>{});
 }
 
 }  // namespace

@@ -4,21 +4,38 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include <Eigen/Core>
 
+#include "adstar/attitude.hpp"
 #include "adstar/vec3.hpp"
 
 namespace adstar {
 
-/// Eigenvalues of a symmetric matrix, ascending: cyclic Jacobi rotations (Golub and Van Loan,
-/// Matrix Computations, 8.5), written out so that the bits do not depend on a library's choice of
-/// instructions.
+/// J = R diag(moments) Rᵀ, R = R_BP of the unit quaternion `axes`: principal axes P to B.
 template <class T>
-std::array<T, 3> principal_moments(const Sym3<T>& J) {
+struct PrincipalFrame {
+  std::array<T, 3> moments;  ///< ascending
+  Quat<T> axes;              ///< q_BP, a proper rotation
+};
+
+/// Eigenvalues and axes of a symmetric matrix: cyclic Jacobi rotations (Golub and Van Loan, Matrix
+/// Computations, 8.5), written out so that the bits do not depend on a library's choice of
+/// instructions. The rotations, all within π/4, are gathered as a quaternion by their half angles.
+template <class T>
+PrincipalFrame<T> principal_frame(const Sym3<T>& J) {
   using std::abs;
   using std::sqrt;
   T m[3][3] = {{J.xx, J.xy, J.xz}, {J.xy, J.yy, J.yz}, {J.xz, J.yz, J.zz}};
+  Quat<T> axes{T(1), T(0), T(0), T(0)};
+  // Turns the frame about its own axis r by the angle of sine s and cosine c.
+  const auto turn = [&axes](int r, const T& c, const T& s) {
+    const T w = sqrt(T(0.5) * (T(1) + c));
+    const T v = s / (T(2) * w);
+    axes = axes * Quat<T>{w, r == 0 ? v : T(0), r == 1 ? v : T(0), r == 2 ? v : T(0)};
+  };
   for (int sweep = 0; sweep < 30; ++sweep) {
     if (m[0][1] == T(0) && m[0][2] == T(0) && m[1][2] == T(0)) {
       break;
@@ -40,12 +57,25 @@ std::array<T, 3> principal_moments(const Sym3<T>& J) {
         m[p][q] = m[q][p] = T(0);
         m[r][p] = m[p][r] = c * m_rp - s * m_rq;
         m[r][q] = m[q][r] = s * m_rp + c * m_rq;
+        turn(r, c, r == 1 ? s : -s);  // e_p' = c e_p - s e_q
       }
     }
   }
   std::array<T, 3> moments{m[0][0], m[1][1], m[2][2]};
-  std::sort(moments.begin(), moments.end());
-  return moments;
+  for (const int p : {0, 1, 0}) {  // quarter turns put them in order
+    const auto i = static_cast<std::size_t>(p);
+    if (moments[i + 1] < moments[i]) {
+      std::swap(moments[i], moments[i + 1]);
+      turn(p == 0 ? 2 : 0, T(0), T(1));
+    }
+  }
+  return {moments, normalised(axes)};
+}
+
+/// Eigenvalues alone, ascending.
+template <class T>
+std::array<T, 3> principal_moments(const Sym3<T>& J) {
+  return principal_frame(J).moments;
 }
 
 template <class T>
@@ -57,8 +87,9 @@ class RigidBody {
       : J_{inertia_B(0, 0), inertia_B(1, 1), inertia_B(2, 2),
            inertia_B(1, 0), inertia_B(2, 0), inertia_B(2, 1)},
         J_inverse_(inverse(J_)),
-        moments_(principal_moments(J_)),
-        inverse_moments_{T(1) / moments_[0], T(1) / moments_[1], T(1) / moments_[2]},
+        frame_(principal_frame(J_)),
+        inverse_moments_{T(1) / frame_.moments[0], T(1) / frame_.moments[1],
+                         T(1) / frame_.moments[2]},
         diagonal_(J_.xy == T(0) && J_.xz == T(0) && J_.yz == T(0)) {}
 
   /// omega_B = J_B⁻¹ Pi_B [rad/s]
@@ -73,7 +104,11 @@ class RigidBody {
   /// E = ½ omega_B · Pi_B [J]
   T energy(const Vec3<T>& Pi_B) const { return T(0.5) * dot(angular_velocity(Pi_B), Pi_B); }
   /// Ascending [kg m²].
-  const std::array<T, 3>& moments() const { return moments_; }
+  const std::array<T, 3>& moments() const { return frame_.moments; }
+  /// q_BP: principal axes, in the order of moments(), to body axes. Any of them where moments are equal.
+  const Quat<T>& principal_axes() const { return frame_.axes; }
+  /// About the centre of mass, in B [kg m²].
+  const Sym3<T>& inertia() const { return J_; }
   /// One over moments(): descending.
   const std::array<T, 3>& inverse_moments() const { return inverse_moments_; }
 
@@ -97,7 +132,7 @@ class RigidBody {
 
   Sym3<T> J_;
   Sym3<T> J_inverse_;
-  std::array<T, 3> moments_;
+  PrincipalFrame<T> frame_;
   std::array<T, 3> inverse_moments_;
   bool diagonal_;
 };
