@@ -52,7 +52,7 @@ class Advance : public testing::Test {
     return state;
   }
 };
-TYPED_TEST_SUITE(Advance, test::SchemeTypes);
+TYPED_TEST_SUITE(Advance, test::ForcedSchemeTypes);
 
 Commanded<double> pulse(Frame frame, std::int64_t start_ns, std::int64_t end_ns, const V& torque) {
   Commanded<double> commanded;

@@ -10,6 +10,7 @@
 
 #include "adstar/integrators/coadjoint.hpp"
 #include "adstar/integrators/lie_newmark.hpp"
+#include "adstar/integrators/moser_veselov.hpp"
 #include "adstar/integrators/quaternion.hpp"
 #include "adstar/integrators/rkmk4.hpp"
 
@@ -17,7 +18,8 @@ namespace adstar {
 
 using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2, CoadjointDopri5, CoadjointVerner6,
                            CoadjointFehlberg8, QuaternionRk4, ProjectedRk4, ProjectedDopri5,
-                           ProjectedVerner6, ProjectedFehlberg8, Rkmk4, LieNewmark>;
+                           ProjectedVerner6, ProjectedFehlberg8, Rkmk4, LieNewmark, MoserVeselov2,
+                           MoserVeselov4, MoserVeselov6, MoserVeselov8, MoserVeselov10>;
 
 inline std::vector<std::string_view> scheme_names() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
