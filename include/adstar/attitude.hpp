@@ -53,6 +53,37 @@ constexpr Quat<T> renormalised(const Quat<T>& q) {
   return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
 }
 
+/// rotate_inverse(renormalised(q), v), the length put in last, so that nothing waits for it. Without,
+/// a |q|² off by a rounding bends the result, not only stretches it.
+template <class T>
+[[gnu::always_inline]] constexpr Vec3<T> rotate_inverse_exactly(const Quat<T>& q,
+                                                                const Vec3<T>& v) {
+  const Vec3<T> u{q.x, q.y, q.z};
+  const Vec3<T> t = cross(u, v);
+  const T two_over_squared_norm = T(4) - T(2) * squared_norm(q);
+  return v + two_over_squared_norm * (cross(u, t) - q.w * t);
+}
+
+/// A rotation by its unit quaternion (1 + u, v): u is small where the angle is, and keeps its digits.
+template <class T>
+struct Turn {
+  T u{};
+  Vec3<T> v;
+};
+
+/// renormalised(q) * (1 + u, v), written as q plus what is small: one rounding of q. That of the
+/// product has a bias, a drift of 1e-19 to 1e-18 a step in the energy of a free body (measured over
+/// 1e7 steps); this one walks at random.
+template <class T>
+[[gnu::always_inline]] constexpr Quat<T> turned(const Quat<T>& q, const Turn<T>& turn) {
+  const T e = turn.u + T(0.5) * (T(1) - squared_norm(q));
+  const Vec3<T>& v = turn.v;
+  return {q.w + ((q.w * e - q.x * v.x) - (q.y * v.y + q.z * v.z)),
+          q.x + ((q.x * e + q.w * v.x) + (q.y * v.z - q.z * v.y)),
+          q.y + ((q.y * e + q.w * v.y) + (q.z * v.x - q.x * v.z)),
+          q.z + ((q.z * e + q.w * v.z) + (q.x * v.y - q.y * v.x))};
+}
+
 /// For input of any length but zero, without overflow or underflow.
 template <class T>
 Quat<T> normalised(const Quat<T>& q) {

@@ -59,7 +59,7 @@ class StepsOf : public testing::Test {
     return allocation_count() - before;
   }
 };
-TYPED_TEST_SUITE(StepsOf, test::SchemeTypes);
+TYPED_TEST_SUITE(StepsOf, test::ForcedSchemeTypes);
 
 std::vector<Torque<double>> every_torque() {
   Commanded<double> commanded;

@@ -120,7 +120,7 @@ class OrderOf : public testing::Test {
   }
 };
 
-TYPED_TEST_SUITE(OrderOf, test::SchemeTypes);
+TYPED_TEST_SUITE(OrderOf, test::ForcedSchemeTypes);
 
 TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
   if constexpr (TypeParam::kOrder == kExactOrder) {

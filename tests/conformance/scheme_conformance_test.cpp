@@ -37,7 +37,7 @@ class SchemeOf : public testing::Test {
     return {{0.02 * std::sin(0.5 * t), 0.015 * std::cos(0.3 * t), 0.01}, {}};
   }
 };
-TYPED_TEST_SUITE(SchemeOf, test::SchemeTypes);
+TYPED_TEST_SUITE(SchemeOf, test::ForcedSchemeTypes);
 
 TYPED_TEST(SchemeOf, keeps_the_inertial_momentum_of_a_free_body_to_the_last_bit) {
   if constexpr (!TypeParam::kClaims.exact_momentum) {

@@ -11,6 +11,7 @@
 #include "adstar/integrators/coadjoint.hpp"
 #include "adstar/integrators/free_exact.hpp"
 #include "adstar/integrators/lie_newmark.hpp"
+#include "adstar/integrators/moser_veselov.hpp"
 #include "adstar/integrators/quaternion.hpp"
 #include "adstar/integrators/rkmk4.hpp"
 
@@ -18,7 +19,9 @@ namespace adstar {
 
 using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2, CoadjointDopri5, CoadjointVerner6,
                            CoadjointFehlberg8, QuaternionRk4, ProjectedRk4, ProjectedDopri5,
-                           ProjectedVerner6, ProjectedFehlberg8, Rkmk4, LieNewmark, FreeExact>;
+                           ProjectedVerner6, ProjectedFehlberg8, Rkmk4, LieNewmark, FreeExact,
+                           MoserVeselov2, MoserVeselov4, MoserVeselov6, MoserVeselov8,
+                           MoserVeselov10>;
 
 inline std::vector<std::string_view> scheme_names() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
