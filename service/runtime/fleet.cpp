@@ -5,6 +5,8 @@
 #include <string>
 
 #include "adstar/integrators/all.hpp"
+#include "service/runtime/batch_stepper.hpp"
+#include "service/runtime/vehicle_step.hpp"
 
 namespace adstar::runtime {
 namespace {
@@ -32,12 +34,7 @@ class SchemeStepper final : public Stepper {
                    const StepLimits& limits) noexcept override {
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      Vehicle& vehicle = vehicles[i];
-      const StepReport report =
-          advance<Scheme, double>(bodies_[i], vehicle.state, vehicle.torques, t_ns, h_ns, limits);
-      vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
-                      (report.unresolved_edges ? kFlagUnresolvedEdges : 0U);
-      unresolved += report.resolved() ? 0 : 1;
+      unresolved += step_vehicle<Scheme>(bodies_[i], vehicles[i], t_ns, h_ns, limits) ? 0 : 1;
     }
     return unresolved;
   }
@@ -46,10 +43,29 @@ class SchemeStepper final : public Stepper {
   std::vector<BodyOf<Scheme, double>> bodies_;
 };
 
+/// The instruction set asked for; none to step each vehicle alone.
+std::optional<batch::InstructionSet> chosen(Lanewise lanewise, std::string_view scheme,
+                                            std::size_t vehicles) {
+  if (lanewise == Lanewise::alone) {
+    return std::nullopt;
+  }
+  if (lanewise == Lanewise::automatic) {
+    return batch::best_for(scheme, vehicles);
+  }
+  const batch::InstructionSet set = lanewise == Lanewise::sse2   ? batch::InstructionSet::sse2
+                                    : lanewise == Lanewise::avx2 ? batch::InstructionSet::avx2
+                                                                 : batch::InstructionSet::avx512;
+  if (!batch::runs_here(set) || batch::find_kernels(scheme, set) == nullptr) {
+    throw std::invalid_argument(std::string(batch::name_of(set)) + " lanes of scheme '" +
+                                std::string(scheme) + "' do not run here");
+  }
+  return set;
+}
+
 }  // namespace
 
 Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
-             const StepLimits& limits)
+             const StepLimits& limits, Lanewise lanewise)
     : limits_(limits) {
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
@@ -62,6 +78,9 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
         stepper_ = std::make_unique<SchemeStepper<decltype(s)>>(vehicles_);
       })) {
     throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
+  }
+  if (const auto set = chosen(lanewise, scheme, vehicles_.size())) {
+    stepper_ = make_batch_stepper(vehicles_, scheme, *set);
   }
 }
 

@@ -31,11 +31,16 @@ class Stepper {
                            const StepLimits& limits) noexcept = 0;
 };
 
+/// How the vehicles of a fleet are stepped; the bits are the same. `automatic`: the widest
+/// instruction set that this processor has and the fleet fills.
+enum class Lanewise { automatic, alone, sse2, avx2, avx512 };
+
 class Fleet {
  public:
-  /// `scheme` and `limits` are the scene's. Throws std::invalid_argument for an unknown scheme.
+  /// `scheme` and `limits` are the scene's. Throws std::invalid_argument for an unknown scheme, and
+  /// for lanes that this processor or the scheme does not have.
   Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
-        const StepLimits& limits);
+        const StepLimits& limits, Lanewise lanewise = Lanewise::automatic);
 
   /// Steps every vehicle over [t_ns, t_ns + h_ns]. Never throws, never allocates.
   /// Returns how many could not be resolved.

@@ -31,12 +31,14 @@ struct Coadjoint {
   static constexpr int kOrder = Tableau::kOrder;
   static constexpr double kStageReach = stage_reach<Tableau>();
   static constexpr Claims kClaims{.exact_momentum = true};
+  static constexpr bool kTakesLanes = true;  ///< step() also takes several bodies side by side
   template <class T>
   using Body = RigidBody<T>;
 
-  /// Advances `state` by h [s]. Never throws, never allocates.
-  template <class T, class Torque>
-  static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque) {
+  /// Advances `state` by h [s]. Never throws, never allocates. `AnyBody`: RigidBody<T>, or the
+  /// bodies of several lanes.
+  template <class AnyBody, class T, class Torque>
+  static void step(const AnyBody& body, State<T>& state, const T& h, const Torque& torque) {
     step(body, state, h, torque, std::make_integer_sequence<int, Tableau::kStages>{});
   }
 
@@ -50,8 +52,8 @@ struct Coadjoint {
     T work[Tableau::kStages];
   };
 
-  template <class T, class Torque, int... I>
-  static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque,
+  template <class AnyBody, class T, class Torque, int... I>
+  static void step(const AnyBody& body, State<T>& state, const T& h, const Torque& torque,
                    std::integer_sequence<int, I...> stages) {
     const Quat<T> q_n = state.q_IB;
     const Vec3<T> Pi_n = rotate_inverse(q_n, state.H_I.value());
@@ -75,8 +77,8 @@ struct Coadjoint {
     state.q_IB = renormalised(q_n) * Rotation<T>(psi).quaternion();
   }
 
-  template <int I, class T, class Torque>
-  static void stage(const RigidBody<T>& body, const Quat<T>& q_n, const Vec3<T>& Pi_n, const T& h,
+  template <int I, class AnyBody, class T, class Torque>
+  static void stage(const AnyBody& body, const Quat<T>& q_n, const Vec3<T>& Pi_n, const T& h,
                     const Torque& torque, Slopes<T>& k) {
     if constexpr (I == 0) {
       // psi = 0: exp and dexpinv are the identity.

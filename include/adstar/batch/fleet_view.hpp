@@ -1,0 +1,60 @@
+#pragma once
+// What a batch kernel sees of a fleet: plain numbers, so that its translation unit instantiates
+// nothing that the rest of the program also has.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace adstar::batch {
+
+/// One body's constants, a cache line: two rows of four.
+struct alignas(64) PackedBody {
+  double J_inverse_xx = 0, J_inverse_yy = 0, J_inverse_zz = 0;
+  double largest_inverse_moment = 0;
+  double J_inverse_xy = 0, J_inverse_xz = 0, J_inverse_yz = 0;
+  double is_diagonal = 1;  ///< 1 or 0
+};
+
+/// What acts on one body over one step without an edge: linear in time in each frame [N m, N m/s].
+struct alignas(64) PackedTorque {
+  double body_start[3] = {};
+  double impulse_bound = 0;  ///< of ∫|tau| dt over the step [N m s]
+  double body_slope[3] = {};
+  double unused_1 = 0;
+  double inertial_start[3] = {};
+  double unused_2 = 0;
+  double inertial_slope[3] = {};
+  double unused_3 = 0;
+};
+
+/// Doubles of a State<double>, in its order: q_IB w x y z; then value and carry of each component of
+/// H_I and impulse_I, and of work.
+inline constexpr std::size_t kStateNumbers = 18;
+
+struct FleetView {
+  double* states = nullptr;            ///< the first State<double>
+  std::size_t stride = kStateNumbers;  ///< doubles from one to the next
+  const PackedBody* bodies = nullptr;
+  const PackedTorque* torques = nullptr;
+};
+
+/// A step of all members listed in `members`; those that a kernel cannot take stay as they are.
+struct Work {
+  const std::uint32_t* members = nullptr;
+  std::size_t count = 0;
+  double h_s = 0;
+  double angle_limit_rad = 0;     ///< StepLimits::substep_angle_rad
+  std::uint32_t* left = nullptr;  ///< out: members not stepped, room for `count`
+};
+
+/// Steps the members; returns how many it left.
+using Kernel = std::size_t (*)(const FleetView& fleet, const Work& work) noexcept;
+
+/// One scheme on one instruction set.
+struct Kernels {
+  Kernel free = nullptr;   ///< no torque
+  Kernel body = nullptr;   ///< a torque constant in the body: body_start alone
+  Kernel ramps = nullptr;  ///< all of PackedTorque
+};
+
+}  // namespace adstar::batch

@@ -1,0 +1,22 @@
+#pragma once
+// Steps a fleet as many vehicles at a time as a register has lanes; each has the bits that it would
+// have alone.
+//
+// Before a step every vehicle is put on a list: free, under a torque constant in its body, under
+// torques linear in time, or none of these (an edge inside the step, a torque that varies from stage
+// to stage). The kernels take the first three; the last, and whatever a kernel leaves (a step to be
+// split, a state that is no number), is stepped alone.
+
+#include <memory>
+#include <vector>
+
+#include "service/batch/kernels.hpp"
+#include "service/runtime/fleet.hpp"
+
+namespace adstar::runtime {
+
+/// Null when there are no kernels for that scheme. `set` must run here. Throws std::bad_alloc.
+std::unique_ptr<Stepper> make_batch_stepper(const std::vector<Vehicle>& vehicles,
+                                            std::string_view scheme, batch::InstructionSet set);
+
+}  // namespace adstar::runtime
