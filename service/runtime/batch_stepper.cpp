@@ -1,5 +1,6 @@
 #include "service/runtime/batch_stepper.hpp"
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -24,6 +25,8 @@ void assign(double (&target)[3], const Vec3<double>& v) noexcept {
   target[2] = v.z;
 }
 
+using Segment = adstar::detail::Segment<double>;
+
 enum class Kind { free, body, ramps, alone };
 
 bool has_edge_before(std::span<const Torque<double>> torques, std::int64_t t_ns,
@@ -37,64 +40,62 @@ bool has_edge_before(std::span<const Torque<double>> torques, std::int64_t t_ns,
   return false;
 }
 
-/// As run_segment() in adstar/propagator.hpp chooses the form of the step.
-Kind classify(const Vehicle& vehicle, std::int64_t t_ns, std::int64_t h_ns,
-              batch::PackedTorque& packed) noexcept {
-  const std::span<const Torque<double>> torques(vehicle.torques);
+/// As run_segment() in adstar/propagator.hpp chooses the form of the step. `segment` is written when
+/// there are torques.
+Kind classify(std::span<const Torque<double>> torques, std::int64_t t_ns, std::int64_t h_ns,
+              Segment& segment) noexcept {
+  if (h_ns <= 0) {
+    return Kind::alone;  // a step of no length is none: a kernel would renormalise
+  }
   if (torques.empty()) {
     return Kind::free;
   }
   if (has_edge_before(torques, t_ns, t_ns + h_ns)) {
     return Kind::alone;
   }
-  const auto segment = adstar::detail::make_segment(torques, t_ns);
+  segment = adstar::detail::make_segment(torques, t_ns);
   if (segment.varying) {
     return Kind::alone;
   }
   using adstar::detail::is_zero;
   const bool inertial = !is_zero(segment.inertial.start) || !is_zero(segment.inertial.slope);
   const bool level = is_zero(segment.body.slope) && is_zero(segment.inertial.slope);
-  if (!inertial && level && is_zero(segment.body.start)) {
-    return Kind::free;
+  if (inertial || !level) {
+    return Kind::ramps;
   }
-  packed.impulse_bound = adstar::detail::impulse_bound(segment, seconds<double>(h_ns));
-  assign(packed.body_start, segment.body.start);
-  if (!inertial && level) {
-    return Kind::body;
-  }
-  assign(packed.body_slope, segment.body.slope);
-  assign(packed.inertial_start, segment.inertial.start);
-  assign(packed.inertial_slope, segment.inertial.slope);
-  return Kind::ramps;
+  return is_zero(segment.body.start) ? Kind::free : Kind::body;
 }
 
-/// Numbers of vehicles, in memory made once.
-class List {
- public:
-  explicit List(std::size_t room) : members_(room) {}
-  void clear() noexcept { size_ = 0; }
-  void add(std::size_t member) noexcept { members_[size_++] = static_cast<std::uint32_t>(member); }
-  const std::uint32_t* data() const noexcept { return members_.data(); }
-  std::size_t size() const noexcept { return size_; }
-  /// Where a kernel may write what it leaves: it never leaves more than it was given.
-  std::uint32_t* end() noexcept { return members_.data() + size_; }
-  void grow(std::size_t by) noexcept { size_ += by; }
+/// Vehicles waiting for a kernel: few, so that their state is still in the cache when it runs, and a
+/// multiple of every width, so that only the last of a step can leave lanes empty.
+struct Queue {
+  static constexpr std::size_t kRoom = 64;
+  std::array<std::uint32_t, kRoom> members;
+  std::array<batch::PackedTorque, kRoom> torques;
+  std::size_t size = 0;
 
- private:
-  std::vector<std::uint32_t> members_;
-  std::size_t size_ = 0;
+  void put(std::uint32_t member, Kind kind, const Segment& segment, double h_s) noexcept {
+    members[size] = member;
+    batch::PackedTorque& torque = torques[size];
+    ++size;
+    if (kind == Kind::free) {
+      return;
+    }
+    torque.impulse_bound = adstar::detail::impulse_bound(segment, h_s);
+    assign(torque.body_start, segment.body.start);
+    if (kind == Kind::ramps) {
+      assign(torque.body_slope, segment.body.slope);
+      assign(torque.inertial_start, segment.inertial.start);
+      assign(torque.inertial_slope, segment.inertial.slope);
+    }
+  }
 };
 
 template <class Scheme>
 class BatchStepper final : public Stepper {
  public:
   BatchStepper(const std::vector<Vehicle>& vehicles, const batch::Kernels& kernels)
-      : kernels_(kernels),
-        torques_(vehicles.size()),
-        free_(vehicles.size()),
-        body_(vehicles.size()),
-        ramps_(vehicles.size()),
-        alone_(vehicles.size()) {
+      : kernels_{kernels.free, kernels.body, kernels.ramps} {
     bodies_.reserve(vehicles.size());
     packed_.reserve(vehicles.size());
     for (const Vehicle& vehicle : vehicles) {
@@ -105,59 +106,68 @@ class BatchStepper final : public Stepper {
 
   std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
                    const StepLimits& limits) noexcept override {
-    sort(vehicles, t_ns, h_ns);
-    const batch::FleetView fleet{&vehicles.data()->state.q_IB.w, sizeof(Vehicle) / sizeof(double),
-                                 packed_.data(), torques_.data()};
-    run(kernels_.free, free_, fleet, h_ns, limits);
-    run(kernels_.body, body_, fleet, h_ns, limits);
-    run(kernels_.ramps, ramps_, fleet, h_ns, limits);
+    const Step step{vehicles, t_ns, h_ns, seconds<double>(h_ns), limits};
     std::size_t unresolved = 0;
-    for (std::size_t i = 0; i < alone_.size(); ++i) {
-      const std::uint32_t member = alone_.data()[i];
-      unresolved +=
-          step_vehicle<Scheme>(bodies_[member], vehicles[member], t_ns, h_ns, limits) ? 0 : 1;
+    Segment segment;
+    for (std::size_t i = 0; i < vehicles.size(); ++i) {
+      const auto member = static_cast<std::uint32_t>(i);
+      const Kind kind = classify(vehicles[i].torques, t_ns, h_ns, segment);
+      if (kind == Kind::alone) {
+        unresolved += step_alone(step, member);
+        continue;
+      }
+      vehicles[i].flags = 0;
+      Queue& queue = queue_of(kind);
+      queue.put(member, kind, segment, step.h_s);
+      if (queue.size == Queue::kRoom) {
+        unresolved += run(step, kind);
+      }
+    }
+    for (const Kind kind : {Kind::free, Kind::body, Kind::ramps}) {
+      unresolved += run(step, kind);
     }
     return unresolved;
   }
 
  private:
-  void sort(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept {
-    for (List* list : {&free_, &body_, &ramps_, &alone_}) {
-      list->clear();
-    }
-    for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      vehicles[i].flags = 0;
-      // A step of no length is none: the kernels would renormalise.
-      switch (h_ns > 0 ? classify(vehicles[i], t_ns, h_ns, torques_[i]) : Kind::alone) {
-        case Kind::free:
-          free_.add(i);
-          break;
-        case Kind::body:
-          body_.add(i);
-          break;
-        case Kind::ramps:
-          ramps_.add(i);
-          break;
-        case Kind::alone:
-          alone_.add(i);
-          break;
-      }
-    }
+  struct Step {
+    std::vector<Vehicle>& vehicles;
+    std::int64_t t_ns, h_ns;
+    double h_s;
+    const StepLimits& limits;
+  };
+
+  Queue& queue_of(Kind kind) noexcept { return queues_[static_cast<std::size_t>(kind)]; }
+
+  /// Returns how many could not be resolved.
+  std::size_t step_alone(const Step& step, std::uint32_t member) noexcept {
+    return step_vehicle<Scheme>(bodies_[member], step.vehicles[member], step.t_ns, step.h_ns,
+                                step.limits)
+               ? 0
+               : 1;
   }
 
-  void run(batch::Kernel kernel, const List& list, const batch::FleetView& fleet, std::int64_t h_ns,
-           const StepLimits& limits) noexcept {
-    if (list.size() > 0) {
-      alone_.grow(kernel(fleet, {list.data(), list.size(), seconds<double>(h_ns),
-                                 limits.substep_angle_rad, alone_.end()}));
+  /// Empties the queue: by its kernel, and one by one what that leaves.
+  std::size_t run(const Step& step, Kind kind) noexcept {
+    Queue& queue = queue_of(kind);
+    const batch::FleetView fleet{&step.vehicles.data()->state.q_IB.w,
+                                 sizeof(Vehicle) / sizeof(double), packed_.data()};
+    std::array<std::uint32_t, Queue::kRoom> left;
+    const std::size_t count = kernels_[static_cast<std::size_t>(kind)](
+        fleet, {queue.members.data(), queue.torques.data(), queue.size, step.h_s,
+                step.limits.substep_angle_rad, left.data()});
+    queue.size = 0;
+    std::size_t unresolved = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      unresolved += step_alone(step, left[i]);
     }
+    return unresolved;
   }
 
-  const batch::Kernels& kernels_;
+  const batch::Kernel kernels_[3];  ///< by Kind
   std::vector<BodyOf<Scheme, double>> bodies_;
   std::vector<batch::PackedBody> packed_;
-  std::vector<batch::PackedTorque> torques_;
-  List free_, body_, ramps_, alone_;
+  Queue queues_[3];  ///< by Kind
 };
 
 }  // namespace

@@ -2,9 +2,9 @@
 // Steps a fleet as many vehicles at a time as a register has lanes; each has the bits that it would
 // have alone.
 //
-// Before a step every vehicle is put on a list: free, under a torque constant in its body, under
-// torques linear in time, or none of these (an edge inside the step, a torque that varies from stage
-// to stage). The kernels take the first three; the last, and whatever a kernel leaves (a step to be
+// Every vehicle of a step is one of: free, under a torque constant in its body, under torques linear
+// in time, or none of these (an edge inside the step, a torque that varies from stage to stage). The
+// first three wait in queues for their kernel; the last, and whatever a kernel leaves (a step to be
 // split, a state that is no number), is stepped alone.
 
 #include <memory>

@@ -69,7 +69,8 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
     : limits_(limits) {
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
-    Vehicle vehicle{RigidBody<double>(craft.inertia_body_kg_m2), craft.initial, craft.torques, {}};
+    Vehicle vehicle{
+        craft.initial, craft.torques, 0, RigidBody<double>(craft.inertia_body_kg_m2), {}};
     vehicle.H_0 = vehicle.state.H_I.value();
     vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
     vehicles_.push_back(std::move(vehicle));

@@ -255,8 +255,8 @@ TEST_P(BatchOn, leaves_the_kernels_nothing_of_a_fleet_that_they_can_take_whole) 
     const batch::Kernels& kernels = *batch::find_kernels(scheme, GetParam().set);
     for (const batch::Kernel kernel : {kernels.free, kernels.body, kernels.ramps}) {
       const std::vector<State<double>> before = states;
-      EXPECT_EQ(kernel({&states[0].q_IB.w, batch::kStateNumbers, bodies.data(), torques.data()},
-                       {members.data(), kBodies, 0.01, 1.0, left.data()}),
+      EXPECT_EQ(kernel({&states[0].q_IB.w, batch::kStateNumbers, bodies.data()},
+                       {members.data(), torques.data(), kBodies, 0.01, 1.0, left.data()}),
                 0U)
           << scheme;
       for (std::size_t i = 0; i < kBodies; ++i) {

@@ -34,13 +34,13 @@ inline constexpr std::size_t kStateNumbers = 18;
 struct FleetView {
   double* states = nullptr;            ///< the first State<double>
   std::size_t stride = kStateNumbers;  ///< doubles from one to the next
-  const PackedBody* bodies = nullptr;
-  const PackedTorque* torques = nullptr;
+  const PackedBody* bodies = nullptr;  ///< one a member
 };
 
 /// A step of all members listed in `members`; those that a kernel cannot take stay as they are.
 struct Work {
   const std::uint32_t* members = nullptr;
+  const PackedTorque* torques = nullptr;  ///< one an entry of `members`; a free step needs none
   std::size_t count = 0;
   double h_s = 0;
   double angle_limit_rad = 0;     ///< StepLimits::substep_angle_rad

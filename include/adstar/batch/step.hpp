@@ -200,11 +200,12 @@ template <class Scheme, detail::Load kLoad, class Arch>
     detail::Group<Arch> group;
     for (std::size_t i = 0; i < kWidth; ++i) {
       // Lanes past the end repeat the last one; what they come to is not stored.
-      const std::uint32_t member = work.members[first + (i < lanes ? i : lanes - 1)];
+      const std::size_t entry = first + (i < lanes ? i : lanes - 1);
+      const std::uint32_t member = work.members[entry];
       group.state[i] = fleet.states + member * fleet.stride;
       group.body[i] = &fleet.bodies[member].J_inverse_xx;
       if constexpr (kLoad != detail::Load::free) {
-        group.torque[i] = fleet.torques[member].body_start;
+        group.torque[i] = work.torques[entry].body_start;
       }
     }
     const unsigned wanted = (1U << lanes) - 1U;
