@@ -27,6 +27,8 @@ void assign(double (&target)[3], const Vec3<double>& v) noexcept {
 
 using Segment = adstar::detail::Segment<double>;
 
+constexpr Segment kNoTorque{};
+
 enum class Kind { free, body, ramps, alone };
 
 bool has_edge_before(std::span<const Torque<double>> torques, std::int64_t t_ns,
@@ -40,20 +42,8 @@ bool has_edge_before(std::span<const Torque<double>> torques, std::int64_t t_ns,
   return false;
 }
 
-/// As run_segment() in adstar/propagator.hpp chooses the form of the step. `segment` is written when
-/// there are torques.
-Kind classify(std::span<const Torque<double>> torques, std::int64_t t_ns, std::int64_t h_ns,
-              Segment& segment) noexcept {
-  if (h_ns <= 0) {
-    return Kind::alone;  // a step of no length is none: a kernel would renormalise
-  }
-  if (torques.empty()) {
-    return Kind::free;
-  }
-  if (has_edge_before(torques, t_ns, t_ns + h_ns)) {
-    return Kind::alone;
-  }
-  segment = adstar::detail::make_segment(torques, t_ns);
+/// As run_segment() in adstar/propagator.hpp chooses the form of the step.
+Kind kind_of(const Segment& segment) noexcept {
   if (segment.varying) {
     return Kind::alone;
   }
@@ -108,19 +98,18 @@ class BatchStepper final : public Stepper {
                    const StepLimits& limits) noexcept override {
     const Step step{vehicles, t_ns, h_ns, seconds<double>(h_ns), limits};
     std::size_t unresolved = 0;
-    Segment segment;
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
       const auto member = static_cast<std::uint32_t>(i);
-      const Kind kind = classify(vehicles[i].torques, t_ns, h_ns, segment);
-      if (kind == Kind::alone) {
+      const std::span<const Torque<double>> torques(vehicles[i].torques);
+      if (h_ns <= 0) {
+        unresolved += step_alone(step, member);  // no step at all: a kernel would renormalise
+      } else if (torques.empty()) {
+        unresolved += put(step, Kind::free, member, kNoTorque);
+      } else if (has_edge_before(torques, t_ns, t_ns + h_ns)) {
         unresolved += step_alone(step, member);
-        continue;
-      }
-      vehicles[i].flags = 0;
-      Queue& queue = queue_of(kind);
-      queue.put(member, kind, segment, step.h_s);
-      if (queue.size == Queue::kRoom) {
-        unresolved += run(step, kind);
+      } else {
+        const Segment segment = adstar::detail::make_segment(torques, t_ns);
+        unresolved += put(step, kind_of(segment), member, segment);
       }
     }
     for (const Kind kind : {Kind::free, Kind::body, Kind::ramps}) {
@@ -139,7 +128,18 @@ class BatchStepper final : public Stepper {
 
   Queue& queue_of(Kind kind) noexcept { return queues_[static_cast<std::size_t>(kind)]; }
 
-  /// Returns how many could not be resolved.
+  /// Steps it, or lets it wait. Like all below, returns how many could not be resolved.
+  std::size_t put(const Step& step, Kind kind, std::uint32_t member,
+                  const Segment& segment) noexcept {
+    if (kind == Kind::alone) {
+      return step_alone(step, member);
+    }
+    step.vehicles[member].flags = 0;
+    Queue& queue = queue_of(kind);
+    queue.put(member, kind, segment, step.h_s);
+    return queue.size == Queue::kRoom ? run(step, kind) : 0;
+  }
+
   std::size_t step_alone(const Step& step, std::uint32_t member) noexcept {
     return step_vehicle<Scheme>(bodies_[member], step.vehicles[member], step.t_ns, step.h_ns,
                                 step.limits)

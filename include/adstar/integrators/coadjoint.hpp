@@ -38,7 +38,8 @@ struct Coadjoint {
   /// Advances `state` by h [s]. Never throws, never allocates. `AnyBody`: RigidBody<T>, or the
   /// bodies of several lanes.
   template <class AnyBody, class T, class Torque>
-  static void step(const AnyBody& body, State<T>& state, const T& h, const Torque& torque) {
+  [[gnu::always_inline]] static void step(const AnyBody& body, State<T>& state, const T& h,
+                                          const Torque& torque) {
     step(body, state, h, torque, std::make_integer_sequence<int, Tableau::kStages>{});
   }
 
@@ -53,8 +54,9 @@ struct Coadjoint {
   };
 
   template <class AnyBody, class T, class Torque, int... I>
-  static void step(const AnyBody& body, State<T>& state, const T& h, const Torque& torque,
-                   std::integer_sequence<int, I...> stages) {
+  [[gnu::always_inline]] static void step(const AnyBody& body, State<T>& state, const T& h,
+                                          const Torque& torque,
+                                          std::integer_sequence<int, I...> stages) {
     const Quat<T> q_n = state.q_IB;
     const Vec3<T> Pi_n = rotate_inverse(q_n, state.H_I.value());
     Slopes<T> k;
@@ -78,8 +80,9 @@ struct Coadjoint {
   }
 
   template <int I, class AnyBody, class T, class Torque>
-  static void stage(const AnyBody& body, const Quat<T>& q_n, const Vec3<T>& Pi_n, const T& h,
-                    const Torque& torque, Slopes<T>& k) {
+  [[gnu::always_inline]] static void stage(const AnyBody& body, const Quat<T>& q_n,
+                                           const Vec3<T>& Pi_n, const T& h, const Torque& torque,
+                                           Slopes<T>& k) {
     if constexpr (I == 0) {
       // psi = 0: exp and dexpinv are the identity.
       const Vec3<T> omega_B = body.angular_velocity(Pi_n);
@@ -122,7 +125,8 @@ struct Coadjoint {
 
   /// h Σ_{j<I} a_Ij k_j, zero entries left out at compile time.
   template <int I, class T, int... J>
-  static Vec3<T> combined(const T& h, const Vec3<T>* k, std::integer_sequence<int, J...>) {
+  [[gnu::always_inline]] static Vec3<T> combined(const T& h, const Vec3<T>* k,
+                                                 std::integer_sequence<int, J...>) {
     Vec3<T> sum{};
     (accumulate<!Tableau::a[I][J].is_zero()>(sum, h, Tableau::a[I][J], k[J]), ...);
     return sum;
@@ -130,14 +134,16 @@ struct Coadjoint {
 
   /// h Σ b_i k_i
   template <class T, int... I>
-  static Vec3<T> weighted(const T& h, const Vec3<T>* k, std::integer_sequence<int, I...>) {
+  [[gnu::always_inline]] static Vec3<T> weighted(const T& h, const Vec3<T>* k,
+                                                 std::integer_sequence<int, I...>) {
     Vec3<T> sum{};
     (accumulate<!Tableau::b[I].is_zero()>(sum, h, Tableau::b[I], k[I]), ...);
     return sum;
   }
 
   template <bool Present, class T>
-  static void accumulate(Vec3<T>& sum, const T& h, const Fraction& weight, const Vec3<T>& k) {
+  [[gnu::always_inline]] static void accumulate(Vec3<T>& sum, const T& h, const Fraction& weight,
+                                                const Vec3<T>& k) {
     if constexpr (Present) {
       sum = sum + (h * weight.template as<T>()) * k;
     }
