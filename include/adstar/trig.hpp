@@ -11,6 +11,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "adstar/scalar.hpp"
+
 namespace adstar {
 
 template <class T>
@@ -21,18 +23,29 @@ struct SinCos {
 namespace detail {
 
 /// sin and cos for |r| ≤ π/4.
-inline SinCos<double> sincos_reduced(double r) {
-  const double s = r * r;
+template <Binary64 T>
+[[gnu::always_inline]] inline SinCos<T> sincos_reduced(const T& r) {
+  const T s = r * r;
   // r - r³/3! + r⁵/5! ...;  1 - s/2 + s²/4! ...: the leading terms last, so that they round once.
   constexpr double k3 = -1.0 / 6, k5 = 1.0 / 120, k7 = -1.0 / 5040, k9 = 1.0 / 362880;
   constexpr double k11 = -1.0 / 39916800, k13 = 1.0 / 6227020800.0, k15 = -1.0 / 1307674368000.0;
   constexpr double k17 = 1.0 / 355687428096000.0;
   constexpr double c4 = 1.0 / 24, c6 = -1.0 / 720, c8 = 1.0 / 40320, c10 = -1.0 / 3628800;
   constexpr double c12 = 1.0 / 479001600, c14 = -1.0 / 87178291200.0, c16 = 1.0 / 20922789888000.0;
-  const double sine_tail =
+  const T sine_tail =
       k3 + s * (k5 + s * (k7 + s * (k9 + s * (k11 + s * (k13 + s * (k15 + s * k17))))));
-  const double cosine_tail = c4 + s * (c6 + s * (c8 + s * (c10 + s * (c12 + s * (c14 + s * c16)))));
+  const T cosine_tail = c4 + s * (c6 + s * (c8 + s * (c10 + s * (c12 + s * (c14 + s * c16)))));
   return {r + r * (s * sine_tail), 1.0 - (0.5 * s - (s * s) * cosine_tail)};
+}
+
+inline constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
+
+/// x - n π/2, |x| ≤ 1e8.
+template <Binary64 T>
+[[gnu::always_inline]] inline T minus_quarter_turns(const T& x, const T& n) {
+  constexpr double kPart1 = 0x1.921fb5p+0, kPart2 = 0x1.110b46p-26;
+  constexpr double kPart3 = 0x1.1a6263p-54, kPart4 = 0x1.8a2e03707344ap-81;
+  return ((x - n * kPart1) - n * kPart2) - n * kPart3 - n * kPart4;
 }
 
 }  // namespace detail
@@ -45,12 +58,8 @@ inline SinCos<double> sincos(double x) {
       return {x, x};
     }
   }
-  constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
-  constexpr double kPart1 = 0x1.921fb5p+0, kPart2 = 0x1.110b46p-26;
-  constexpr double kPart3 = 0x1.1a6263p-54, kPart4 = 0x1.8a2e03707344ap-81;
-  const double n = std::floor(x * kTwoOverPi + 0.5);
-  const double r = ((x - n * kPart1) - n * kPart2) - n * kPart3 - n * kPart4;
-  const SinCos<double> a = detail::sincos_reduced(r);
+  const double n = std::floor(x * detail::kTwoOverPi + 0.5);
+  const SinCos<double> a = detail::sincos_reduced(detail::minus_quarter_turns(x, n));
   switch (static_cast<long long>(n) & 3) {
     case 0:
       return {a.sin, a.cos};

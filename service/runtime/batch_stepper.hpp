@@ -3,9 +3,9 @@
 // have alone.
 //
 // Every vehicle of a step is one of: free, under a torque constant in its body, under torques linear
-// in time, or none of these (an edge inside the step, a torque that varies from stage to stage). The
-// first three wait in queues for their kernel; the last, and whatever a kernel leaves (a step to be
-// split, a state that is no number), is stepped alone.
+// in time, under these and harmonic ones, or with an edge inside the step. The first four wait in
+// queues for their kernel; the last, and whatever a kernel leaves (a step to be split, a state that
+// is no number), is stepped alone.
 
 #include <memory>
 #include <vector>

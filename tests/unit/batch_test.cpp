@@ -247,16 +247,19 @@ TEST_P(BatchOn, leaves_the_kernels_nothing_of_a_fleet_that_they_can_take_whole) 
   const std::vector<batch::PackedBody> bodies(
       kBodies, {m.xx, m.yy, m.zz, body.inverse_moments()[0], m.xy, m.xz, m.yz, 0.0});
   std::vector<batch::PackedTorque> torques(kBodies);
+  std::vector<batch::PackedHarmonics> harmonics(kBodies);
   std::vector<std::uint32_t> members, left(kBodies);
   for (std::uint32_t i = 0; i < kBodies; ++i) {
     members.push_back(i);
   }
   for (const std::string_view scheme : schemes_with_lanes()) {
     const batch::Kernels& kernels = *batch::find_kernels(scheme, GetParam().set);
-    for (const batch::Kernel kernel : {kernels.free, kernels.body, kernels.ramps}) {
+    for (const batch::Kernel kernel :
+         {kernels.free, kernels.body, kernels.ramps, kernels.varying}) {
       const std::vector<State<double>> before = states;
       EXPECT_EQ(kernel({&states[0].q_IB.w, batch::kStateNumbers, bodies.data()},
-                       {members.data(), torques.data(), kBodies, 0.01, 1.0, left.data()}),
+                       {members.data(), torques.data(), harmonics.data(), 1, kBodies, 0.0, 0.01,
+                        1.0, left.data()}),
                 0U)
           << scheme;
       for (std::size_t i = 0; i < kBodies; ++i) {
@@ -264,6 +267,36 @@ TEST_P(BatchOn, leaves_the_kernels_nothing_of_a_fleet_that_they_can_take_whole) 
       }
     }
   }
+}
+
+TEST_P(BatchOn, follows_harmonic_torques_into_every_quadrant_and_past_what_it_reduces) {
+  Generator random(11);
+  std::vector<scene::Spacecraft> crafts;
+  for (int i = 0; i < 200; ++i) {
+    scene::Spacecraft craft = make_craft(0);
+    const int count = static_cast<int>(uniform(random, 1, 7));
+    for (int k = 0; k < count; ++k) {
+      Harmonic<double> harmonic{any_frame(random), any_vector(random, 0.1),
+                                any_vector(random, log_uniform(random, 1e-9, 1e10)),
+                                any_vector(random, log_uniform(random, 1e-9, 20))};
+      if (one_of(random, 3)) {
+        harmonic.amplitude_n_m.y = one_of(random, 2) ? 0.0 : -0.0;
+      }
+      if (one_of(random, 5)) {
+        harmonic.phase_rad = {0.0, -0.0, 1.5707963267948966};
+        harmonic.angular_frequency_rad_s = {0, -0.0, 0};
+      }
+      if (one_of(random, 60)) {
+        harmonic.phase_rad.x = std::numeric_limits<double>::quiet_NaN();
+      }
+      craft.torques.push_back(harmonic);
+      if (one_of(random, 3)) {
+        craft.torques.push_back(Constant<double>{any_frame(random), any_vector(random, 0.1)});
+      }
+    }
+    crafts.push_back(craft);
+  }
+  EXPECT_EQ(difference_of(crafts, 300, 10 * kMs), "");
 }
 
 TEST(Batch, has_kernels_for_every_scheme_that_takes_lanes) {

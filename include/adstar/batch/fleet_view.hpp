@@ -27,6 +27,26 @@ struct alignas(64) PackedTorque {
   double unused_3 = 0;
 };
 
+/// One harmonic torque: amplitude sin(rate t + phase) per axis [N m, rad/s, rad].
+struct PackedHarmonic {
+  double amplitude[3] = {};
+  double frame = 0;  ///< 1 body, 2 inertial, 0 no torque at all
+  double rate[3] = {};
+  double unused_1 = 0;
+  double phase[3] = {};
+  double unused_2 = 0;
+};
+
+/// Largest |rate t + phase| that a kernel takes [rad]: beyond it sincos reduces in another way.
+inline constexpr double kLargestAngle = 1e8;
+
+/// Harmonic torques that a body may have in a kernel; one with more is stepped alone.
+inline constexpr std::size_t kHarmonics = 4;
+
+struct alignas(64) PackedHarmonics {
+  PackedHarmonic at[kHarmonics];
+};
+
 /// Doubles of a State<double>, in its order: q_IB w x y z; then value and carry of each component of
 /// H_I and impulse_I, and of work.
 inline constexpr std::size_t kStateNumbers = 18;
@@ -41,7 +61,10 @@ struct FleetView {
 struct Work {
   const std::uint32_t* members = nullptr;
   const PackedTorque* torques = nullptr;  ///< one an entry of `members`; a free step needs none
+  const PackedHarmonics* harmonics = nullptr;  ///< the same; for the varying step only
+  std::size_t most_harmonics = 0;              ///< of any entry
   std::size_t count = 0;
+  double t_s = 0;  ///< simulation time at the step's beginning
   double h_s = 0;
   double angle_limit_rad = 0;     ///< StepLimits::substep_angle_rad
   std::uint32_t* left = nullptr;  ///< out: members not stepped, room for `count`
@@ -52,9 +75,10 @@ using Kernel = std::size_t (*)(const FleetView& fleet, const Work& work) noexcep
 
 /// One scheme on one instruction set.
 struct Kernels {
-  Kernel free = nullptr;   ///< no torque
-  Kernel body = nullptr;   ///< a torque constant in the body: body_start alone
-  Kernel ramps = nullptr;  ///< all of PackedTorque
+  Kernel free = nullptr;     ///< no torque
+  Kernel body = nullptr;     ///< a torque constant in the body: body_start alone
+  Kernel ramps = nullptr;    ///< all of PackedTorque
+  Kernel varying = nullptr;  ///< and PackedHarmonics
 };
 
 }  // namespace adstar::batch

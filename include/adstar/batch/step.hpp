@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "adstar/batch/fleet_view.hpp"
+#include "adstar/batch/lane_trig.hpp"
 #include "adstar/batch/lanes.hpp"
 #include "adstar/batch/rows.hpp"
 #include "adstar/integrators/guard.hpp"
@@ -40,7 +41,7 @@ struct LaneBodies {
 
 namespace detail {
 
-enum class Load { free, body, ramps };
+enum class Load { free, body, ramps, varying };
 
 /// One group: where each lane's numbers lie.
 template <class Arch>
@@ -49,6 +50,7 @@ struct Group {
   double* state[kWidth];
   const double* body[kWidth];
   const double* torque[kWidth];
+  const PackedHarmonics* harmonics[kWidth];
 };
 
 template <std::size_t Offset, class Arch, class Pointer>
@@ -111,6 +113,38 @@ unsigned bits_of(const LaneMask<double, Arch>& mask) {
   return bits;
 }
 
+/// Adds every lane's harmonic torques at t [s], in their order, as add_varying() of propagator.hpp.
+/// Out of line: once a stage, and its registers are its own.
+template <class Arch>
+[[gnu::noinline]] void add_harmonics(TorqueSample<Lanes<double, Arch>>& sum,
+                                     const Group<Arch>& group, std::size_t most,
+                                     const Lanes<double, Arch>& t_s) {
+  using L = Lanes<double, Arch>;
+  for (std::size_t k = 0; k < most; ++k) {
+    const double* from[L::kWidth];
+    for (std::size_t i = 0; i < L::kWidth; ++i) {
+      from[i] = group.harmonics[i]->at[k].amplitude;
+    }
+    const auto amplitude = load_at<0, Arch>(from);
+    const auto rate = load_at<4, Arch>(from);
+    const auto phase = load_at<8, Arch>(from);
+    const auto in_body = (amplitude.column[3] > L(0.5)) & (amplitude.column[3] < L(1.5));
+    const auto in_inertial = amplitude.column[3] > L(1.5);
+    const auto axis = [&](std::size_t j) [[gnu::always_inline]] {
+      const L& size = amplitude.column[j];
+      const auto none = (size <= L(0)) & (L(0) <= size);
+      return select(none, L(0), size * lane_sine(rate.column[j] * t_s + phase.column[j]));
+    };
+    const auto add = [&](L& body, L& inertial, const L& torque) [[gnu::always_inline]] {
+      body = select(in_body, body + torque, body);
+      inertial = select(in_inertial, inertial + torque, inertial);
+    };
+    add(sum.body.x, sum.inertial.x, axis(0));
+    add(sum.body.y, sum.inertial.y, axis(1));
+    add(sum.body.z, sum.inertial.z, axis(2));
+  }
+}
+
 /// Steps the lanes of `wanted`; returns which it took.
 template <class Scheme, Load kLoad, class Arch>
 [[gnu::always_inline]] inline unsigned step_group(const Group<Arch>& group, unsigned wanted,
@@ -161,10 +195,14 @@ template <class Scheme, Load kLoad, class Arch>
                             inertial_start.column[2]};
       const Vec3<L> slope_I{inertial_slope.column[0], inertial_slope.column[1],
                             inertial_slope.column[2]};
-      Scheme::step(bodies, state, h, mixed_torque([&](const Stage<L>& stage) {
-                     return TorqueSample<L>{start_B + stage.time_s * slope_B,
-                                            start_I + stage.time_s * slope_I};
-                   }));
+      Scheme::step(
+          bodies, state, h, mixed_torque([&](const Stage<L>& stage) {
+            TorqueSample<L> tau{start_B + stage.time_s * slope_B, start_I + stage.time_s * slope_I};
+            if constexpr (kLoad == Load::varying) {
+              add_harmonics<Arch>(tau, group, work.most_harmonics, L(work.t_s) + stage.time_s);
+            }
+            return tau;
+          }));
     }
   }
   const L q_squared = squared_norm(state.q_IB);
@@ -207,6 +245,9 @@ template <class Scheme, detail::Load kLoad, class Arch>
       if constexpr (kLoad != detail::Load::free) {
         group.torque[i] = work.torques[entry].body_start;
       }
+      if constexpr (kLoad == detail::Load::varying) {
+        group.harmonics[i] = &work.harmonics[entry];
+      }
     }
     const unsigned wanted = (1U << lanes) - 1U;
     const unsigned taken = detail::step_group<Scheme, kLoad, Arch>(group, wanted, work);
@@ -225,7 +266,8 @@ template <class Scheme, class Arch>
 constexpr Kernels kernels() {
   return {step_members<Scheme, detail::Load::free, Arch>,
           step_members<Scheme, detail::Load::body, Arch>,
-          step_members<Scheme, detail::Load::ramps, Arch>};
+          step_members<Scheme, detail::Load::ramps, Arch>,
+          step_members<Scheme, detail::Load::varying, Arch>};
 }
 
 }  // namespace adstar::batch
