@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "adstar/batch/fleet_view.hpp"
 #include "adstar/integrators/all.hpp"
@@ -120,7 +121,7 @@ struct Queue {
 template <class Scheme>
 class BatchStepper final : public Stepper {
  public:
-  BatchStepper(const std::vector<Vehicle>& vehicles, const batch::Kernels& kernels)
+  BatchStepper(std::span<const Vehicle> vehicles, const batch::Kernels& kernels)
       : kernels_{kernels.free, kernels.body, kernels.ramps, kernels.varying} {
     bodies_.reserve(vehicles.size());
     packed_.reserve(vehicles.size());
@@ -130,7 +131,7 @@ class BatchStepper final : public Stepper {
     }
   }
 
-  std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
+  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
                    const StepLimits& limits) noexcept override {
     const Step step{vehicles, t_ns, h_ns, seconds<double>(t_ns), seconds<double>(h_ns), limits};
     std::size_t unresolved = 0;
@@ -156,7 +157,7 @@ class BatchStepper final : public Stepper {
 
  private:
   struct Step {
-    std::vector<Vehicle>& vehicles;
+    std::span<Vehicle> vehicles;
     std::int64_t t_ns, h_ns;
     double t_s, h_s;
     const StepLimits& limits;
@@ -214,7 +215,7 @@ class BatchStepper final : public Stepper {
 
 }  // namespace
 
-std::unique_ptr<Stepper> make_batch_stepper(const std::vector<Vehicle>& vehicles,
+std::unique_ptr<Stepper> make_batch_stepper(std::span<const Vehicle> vehicles,
                                             std::string_view scheme, batch::InstructionSet set) {
   std::unique_ptr<Stepper> stepper;
   const batch::Kernels* const kernels = batch::find_kernels(scheme, set);

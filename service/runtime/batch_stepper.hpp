@@ -8,7 +8,8 @@
 // is no number), is stepped alone.
 
 #include <memory>
-#include <vector>
+#include <span>
+#include <string_view>
 
 #include "service/batch/kernels.hpp"
 #include "service/runtime/fleet.hpp"
@@ -16,7 +17,7 @@
 namespace adstar::runtime {
 
 /// Null when there are no kernels for that scheme. `set` must run here. Throws std::bad_alloc.
-std::unique_ptr<Stepper> make_batch_stepper(const std::vector<Vehicle>& vehicles,
+std::unique_ptr<Stepper> make_batch_stepper(std::span<const Vehicle> vehicles,
                                             std::string_view scheme, batch::InstructionSet set);
 
 }  // namespace adstar::runtime

@@ -6,6 +6,7 @@
 
 #include "adstar/integrators/all.hpp"
 #include "service/runtime/batch_stepper.hpp"
+#include "service/runtime/threaded_stepper.hpp"
 #include "service/runtime/vehicle_step.hpp"
 
 namespace adstar::runtime {
@@ -23,14 +24,14 @@ void assign(std::array<double, N>& target, const Vec3<double>& v) noexcept {
 template <class Scheme>
 class SchemeStepper final : public Stepper {
  public:
-  explicit SchemeStepper(const std::vector<Vehicle>& vehicles) {
+  explicit SchemeStepper(std::span<const Vehicle> vehicles) {
     bodies_.reserve(vehicles.size());
     for (const Vehicle& vehicle : vehicles) {
       bodies_.emplace_back(vehicle.body);
     }
   }
 
-  std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
+  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
                    const StepLimits& limits) noexcept override {
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
@@ -62,10 +63,24 @@ std::optional<batch::InstructionSet> chosen(Lanewise lanewise, std::string_view 
   return set;
 }
 
+std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::string_view scheme,
+                                      Lanewise lanewise) {
+  std::unique_ptr<Stepper> stepper;
+  if (!with_scheme(scheme, [&](auto s) {
+        stepper = std::make_unique<SchemeStepper<decltype(s)>>(vehicles);
+      })) {
+    throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
+  }
+  if (const auto set = chosen(lanewise, scheme, vehicles.size())) {
+    return make_batch_stepper(vehicles, scheme, *set);
+  }
+  return stepper;
+}
+
 }  // namespace
 
 Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
-             const StepLimits& limits, Lanewise lanewise)
+             const StepLimits& limits, Lanewise lanewise, std::size_t threads)
     : limits_(limits) {
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
@@ -75,14 +90,9 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
     vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
     vehicles_.push_back(std::move(vehicle));
   }
-  if (!with_scheme(scheme, [this](auto s) {
-        stepper_ = std::make_unique<SchemeStepper<decltype(s)>>(vehicles_);
-      })) {
-    throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
-  }
-  if (const auto set = chosen(lanewise, scheme, vehicles_.size())) {
-    stepper_ = make_batch_stepper(vehicles_, scheme, *set);
-  }
+  stepper_ = make_threaded_stepper(vehicles_, threads, [&](std::span<const Vehicle> part) {
+    return make_stepper(part, scheme, lanewise);
+  });
 }
 
 TelemetryRecord sample(const Vehicle& vehicle) noexcept {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -28,7 +29,7 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
   /// Over [t_ns, t_ns + h_ns]; returns how many could not be resolved.
-  virtual std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
+  virtual std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
                            const StepLimits& limits) noexcept = 0;
 };
 
@@ -39,9 +40,9 @@ enum class Lanewise { automatic, alone, sse2, avx2, avx512 };
 class Fleet {
  public:
   /// `scheme` and `limits` are the scene's. Throws std::invalid_argument for an unknown scheme, and
-  /// for lanes that this processor or the scheme does not have.
+  /// for lanes that this processor or the scheme does not have. `threads`: of a step, at most.
   Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
-        const StepLimits& limits, Lanewise lanewise = Lanewise::automatic);
+        const StepLimits& limits, Lanewise lanewise = Lanewise::automatic, std::size_t threads = 1);
 
   /// Steps every vehicle over [t_ns, t_ns + h_ns]. Never throws, never allocates.
   /// Returns how many could not be resolved.

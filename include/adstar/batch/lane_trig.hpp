@@ -8,9 +8,14 @@
 
 namespace adstar::batch {
 
+/// For |x| < 2^51: to the nearest whole number by the addition's own rounding, then down. SSE2 has no
+/// instruction for it.
 template <class Arch>
 [[gnu::always_inline]] inline Lanes<double, Arch> lane_floor(const Lanes<double, Arch>& x) {
-  return xsimd::floor(x.values);
+  using L = Lanes<double, Arch>;
+  const L rounder(0x1.8p52);
+  const L nearest = (x + rounder) - rounder;
+  return select(nearest > x, nearest - L(1), nearest);
 }
 
 template <class Arch>
