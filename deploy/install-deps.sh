@@ -9,6 +9,7 @@ packages=(
   libeigen3-dev                            # core
   cyclonedds-dev cyclonedds-tools          # DDS (C API) and idlc
   libspdlog-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
+  libxsimd-dev                             # fleets: several bodies a register
 )
 if [[ "${1:-}" == "--tests" ]]; then
   packages+=(clang clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev

@@ -17,7 +17,7 @@ struct Quat {
 
 /// Hamilton product: rotate(p * q, v) = rotate(p, rotate(q, v)).
 template <class T>
-constexpr Quat<T> operator*(const Quat<T>& p, const Quat<T>& q) {
+[[gnu::always_inline]] constexpr Quat<T> operator*(const Quat<T>& p, const Quat<T>& q) {
   return {(p.w * q.w - p.x * q.x) - (p.y * q.y + p.z * q.z),  //
           (p.w * q.x + p.x * q.w) + (p.y * q.z - p.z * q.y),  //
           (p.w * q.y - p.x * q.z) + (p.y * q.w + p.z * q.x),  //

@@ -11,28 +11,41 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "adstar/scalar.hpp"
+
 namespace adstar {
+
+namespace detail {
+
+inline constexpr double kOverPi = 0x1.45f306dc9c883p-2;
+/// What is added to it is rounded to a whole number; |x| < 2^51.
+inline constexpr double kWholes = 0x1.8p52;
+
+/// sin(x - nπ)
+template <Binary64 T>
+[[gnu::always_inline]] inline T sine_less_half_turns(const T& x, const T& n) {
+  constexpr double kPart1 = 0x1.921fb5p+1, kPart2 = 0x1.110b46p-25;
+  constexpr double kPart3 = 0x1.1a6263p-53, kPart4 = 0x1.8a2e03707344ap-80;
+  const T r = ((x - n * kPart1) - n * kPart2) - n * kPart3 - n * kPart4;
+  constexpr double k3 = -1.0 / 6, k5 = 1.0 / 120, k7 = -1.0 / 5040, k9 = 1.0 / 362880;
+  constexpr double k11 = -1.0 / 39916800, k13 = 1.0 / 6227020800.0, k15 = -1.0 / 1307674368000.0;
+  constexpr double k17 = 1.0 / 355687428096000.0, k19 = -1.0 / 121645100408832000.0;
+  constexpr double k21 = 1.0 / 51090942171709440000.0;
+  const T s = r * r, s2 = s * s, s4 = s2 * s2;
+  const T low = (k3 + s * k5) + s2 * (k7 + s * k9);
+  const T high = ((k11 + s * k13) + s2 * (k15 + s * k17)) + s4 * (k19 + s * k21);
+  return r + r * (s * (low + s4 * high));
+}
+
+}  // namespace detail
 
 inline double sine(double x) {
   if (!(std::fabs(x) <= 1e8)) {
     constexpr double kTwoPi = 0x1.921fb54442d18p+2;
     x = std::fmod(x, kTwoPi);  // NaN for infinities and NaN
   }
-  constexpr double kOverPi = 0x1.45f306dc9c883p-2;
-  constexpr double kPart1 = 0x1.921fb5p+1, kPart2 = 0x1.110b46p-25;
-  constexpr double kPart3 = 0x1.1a6263p-53, kPart4 = 0x1.8a2e03707344ap-80;
-  constexpr double kShift = 0x1.8p52;  // what is added to it is rounded to a whole number
-  const double shifted = x * kOverPi + kShift;
-  const double n = shifted - kShift;
-  const double r = ((x - n * kPart1) - n * kPart2) - n * kPart3 - n * kPart4;
-  constexpr double k3 = -1.0 / 6, k5 = 1.0 / 120, k7 = -1.0 / 5040, k9 = 1.0 / 362880;
-  constexpr double k11 = -1.0 / 39916800, k13 = 1.0 / 6227020800.0, k15 = -1.0 / 1307674368000.0;
-  constexpr double k17 = 1.0 / 355687428096000.0, k19 = -1.0 / 121645100408832000.0;
-  constexpr double k21 = 1.0 / 51090942171709440000.0;
-  const double s = r * r, s2 = s * s, s4 = s2 * s2;
-  const double low = (k3 + s * k5) + s2 * (k7 + s * k9);
-  const double high = ((k11 + s * k13) + s2 * (k15 + s * k17)) + s4 * (k19 + s * k21);
-  const double y = r + r * (s * (low + s4 * high));
+  const double shifted = x * detail::kOverPi + detail::kWholes;
+  const double y = detail::sine_less_half_turns(x, shifted - detail::kWholes);
   const std::uint64_t odd = std::bit_cast<std::uint64_t>(shifted) << 63U;
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(y) ^ odd);
 }

@@ -11,11 +11,11 @@
 // (tests/unit/so3_test.cpp).
 
 #include <limits>
-#include <type_traits>
 
 #include <Eigen/Core>
 
 #include "adstar/attitude.hpp"
+#include "adstar/scalar.hpp"
 #include "adstar/trig.hpp"
 #include "adstar/vec3.hpp"
 
@@ -29,12 +29,12 @@ struct HalfAngleSeries {
 
 /// P and D of u = (θ/2)²: ¼ Σ (-u)^k/(2k+3)! and ¼ Σ (-u)^k (2k+2)/(2k+3)!, cut for u ≤ 1/16 (θ ≤
 /// ½).
-inline HalfAngleSeries<double> half_angle_series_small(double u) {
+template <Binary64 T>
+HalfAngleSeries<T> half_angle_series_small(const T& u) {
   constexpr double p0 = 0.25 / 6, p1 = -0.25 / 120, p2 = 0.25 / 5040, p3 = -0.25 / 362880;
   constexpr double p4 = 0.25 / 39916800.0, p5 = -0.25 / 6227020800.0;
-  const double P = p0 + u * (p1 + u * (p2 + u * (p3 + u * (p4 + u * p5))));
-  const double D =
-      2 * p0 + u * (4 * p1 + u * (6 * p2 + u * (8 * p3 + u * (10 * p4 + u * (12 * p5)))));
+  const T P = p0 + u * (p1 + u * (p2 + u * (p3 + u * (p4 + u * p5))));
+  const T D = 2 * p0 + u * (4 * p1 + u * (6 * p2 + u * (8 * p3 + u * (10 * p4 + u * (12 * p5)))));
   return {P, D};
 }
 
@@ -57,10 +57,11 @@ HalfAngleSeries<T> half_angle_series(const T& u) {
 }
 
 /// Twelve terms with constant coefficients: u ≤ (π/2)² in double.
-inline HalfAngleSeries<double> half_angle_series(double u) {
+template <Binary64 T>
+HalfAngleSeries<T> half_angle_series(const T& u) {
   constexpr double kInverse[] = {0,         1.0 / 20,  1.0 / 42,  1.0 / 72,  1.0 / 110, 1.0 / 156,
                                  1.0 / 210, 1.0 / 272, 1.0 / 342, 1.0 / 420, 1.0 / 506, 1.0 / 600};
-  double P = 1, D = 24;
+  T P = 1, D = 24;
   for (int k = 11; k >= 1; --k) {
     P = 1.0 - u * kInverse[k] * P;
     D = 2.0 * k - u * kInverse[k] * D;
@@ -84,14 +85,11 @@ class Rotation {
   /// Inline where it is used: a step of a single body waits for it.
   [[gnu::always_inline]] explicit Rotation(const Vec3<T>& psi)
       : psi_{psi.x, psi.y, psi.z}, s_(squared_norm(psi)) {
-    if constexpr (std::is_same_v<T, double>) {
-      if (s_ <= kTinyAngleRad * kTinyAngleRad) {
-        set_tiny();
-        return;
-      }
+    if constexpr (ManyLanes<T>) {
+      set_each();
+    } else {
+      set_one();
     }
-    const HalfAngle half = half_angle_of(s_);
-    set(half.P, half.D);
   }
 
   /// exp(psi) v
@@ -137,12 +135,59 @@ class Rotation {
   /// Out of line: the rarer angles leave the registers to the common ones.
   [[gnu::noinline]] static HalfAngle half_angle_of(T s) {
     const T u = T(0.25) * s;
-    if constexpr (std::is_same_v<T, double>) {
+    if constexpr (Binary64<T>) {
       if (u <= 0.25 * kSmallAngleRad * kSmallAngleRad) {
         return detail::half_angle_series_small(u);
       }
     }
     return u <= T(2.5) ? detail::half_angle_series(u) : beyond_pi(u);
+  }
+
+  [[gnu::always_inline]] void set_one() {
+    if constexpr (Binary64<T>) {
+      if (s_ <= kTinyAngleRad * kTinyAngleRad) {
+        set_tiny();
+        return;
+      }
+    }
+    const HalfAngle half = half_angle_of(s_);
+    set(half.P, half.D);
+  }
+
+  /// The scalar's choice of series, lane by lane. A lane beyond π becomes no number: it is for the
+  /// caller to step it on its own.
+  [[gnu::always_inline]] void set_each() {
+    const auto tiny = s_ <= T(kTinyAngleRad * kTinyAngleRad);
+    if (all(tiny)) {
+      set_tiny();
+      return;
+    }
+    const HalfAngle half = half_angles_of(s_);
+    set(half.P, half.D);
+    if (any(tiny)) {
+      const T A = A_, B = B_, E = E_, g = g_, C = C_, half_S = half_S_;
+      set_tiny();
+      A_ = select(tiny, A_, A);
+      B_ = select(tiny, B_, B);
+      E_ = select(tiny, E_, E);
+      g_ = select(tiny, g_, g);
+      C_ = select(tiny, C_, C);
+      half_S_ = select(tiny, half_S_, half_S);
+    }
+  }
+
+  [[gnu::noinline]] static HalfAngle half_angles_of(T s) {
+    const T u = T(0.25) * s;
+    HalfAngle half = detail::half_angle_series_small(u);
+    const auto small = u <= T(0.25 * kSmallAngleRad * kSmallAngleRad);
+    if (!all(small)) {
+      const HalfAngle larger = detail::half_angle_series(u);
+      const T none = std::numeric_limits<double>::quiet_NaN();
+      const auto within_pi = u <= T(2.5);
+      half.P = select(small, half.P, select(within_pi, larger.P, none));
+      half.D = select(small, half.D, select(within_pi, larger.D, none));
+    }
+    return half;
   }
 
   static detail::HalfAngleSeries<T> beyond_pi(const T& u) {

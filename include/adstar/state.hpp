@@ -15,7 +15,7 @@ template <class T>
 struct Sum {
   T value{}, carry{};
 
-  void add(const T& term) {
+  [[gnu::always_inline]] void add(const T& term) {
     const T t = term + carry;
     const T sum = value + t;
     const T seen = sum - value;

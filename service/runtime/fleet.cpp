@@ -5,6 +5,9 @@
 #include <string>
 
 #include "adstar/integrators/all.hpp"
+#include "service/runtime/batch_stepper.hpp"
+#include "service/runtime/threaded_stepper.hpp"
+#include "service/runtime/vehicle_step.hpp"
 
 namespace adstar::runtime {
 namespace {
@@ -21,23 +24,18 @@ void assign(std::array<double, N>& target, const Vec3<double>& v) noexcept {
 template <class Scheme>
 class SchemeStepper final : public Stepper {
  public:
-  explicit SchemeStepper(const std::vector<Vehicle>& vehicles) {
+  explicit SchemeStepper(std::span<const Vehicle> vehicles) {
     bodies_.reserve(vehicles.size());
     for (const Vehicle& vehicle : vehicles) {
       bodies_.emplace_back(vehicle.body);
     }
   }
 
-  std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
+  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
                    const StepLimits& limits) noexcept override {
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      Vehicle& vehicle = vehicles[i];
-      const StepReport report =
-          advance<Scheme, double>(bodies_[i], vehicle.state, vehicle.torques, t_ns, h_ns, limits);
-      vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
-                      (report.unresolved_edges ? kFlagUnresolvedEdges : 0U);
-      unresolved += report.resolved() ? 0 : 1;
+      unresolved += step_vehicle<Scheme>(bodies_[i], vehicles[i], t_ns, h_ns, limits) ? 0 : 1;
     }
     return unresolved;
   }
@@ -46,23 +44,55 @@ class SchemeStepper final : public Stepper {
   std::vector<BodyOf<Scheme, double>> bodies_;
 };
 
+/// The instruction set asked for; none to step each vehicle alone.
+std::optional<batch::InstructionSet> chosen(Lanewise lanewise, std::string_view scheme,
+                                            std::size_t vehicles) {
+  if (lanewise == Lanewise::alone) {
+    return std::nullopt;
+  }
+  if (lanewise == Lanewise::automatic) {
+    return batch::best_for(scheme, vehicles);
+  }
+  const batch::InstructionSet set = lanewise == Lanewise::sse2   ? batch::InstructionSet::sse2
+                                    : lanewise == Lanewise::avx2 ? batch::InstructionSet::avx2
+                                                                 : batch::InstructionSet::avx512;
+  if (!batch::runs_here(set) || batch::find_kernels(scheme, set) == nullptr) {
+    throw std::invalid_argument(std::string(batch::name_of(set)) + " lanes of scheme '" +
+                                std::string(scheme) + "' do not run here");
+  }
+  return set;
+}
+
+std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::string_view scheme,
+                                      Lanewise lanewise) {
+  std::unique_ptr<Stepper> stepper;
+  if (!with_scheme(scheme, [&](auto s) {
+        stepper = std::make_unique<SchemeStepper<decltype(s)>>(vehicles);
+      })) {
+    throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
+  }
+  if (const auto set = chosen(lanewise, scheme, vehicles.size())) {
+    return make_batch_stepper(vehicles, scheme, *set);
+  }
+  return stepper;
+}
+
 }  // namespace
 
 Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
-             const StepLimits& limits)
+             const StepLimits& limits, Lanewise lanewise, std::size_t threads)
     : limits_(limits) {
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
-    Vehicle vehicle{RigidBody<double>(craft.inertia_body_kg_m2), craft.initial, craft.torques, {}};
+    Vehicle vehicle{
+        craft.initial, craft.torques, 0, RigidBody<double>(craft.inertia_body_kg_m2), {}};
     vehicle.H_0 = vehicle.state.H_I.value();
     vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
     vehicles_.push_back(std::move(vehicle));
   }
-  if (!with_scheme(scheme, [this](auto s) {
-        stepper_ = std::make_unique<SchemeStepper<decltype(s)>>(vehicles_);
-      })) {
-    throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
-  }
+  stepper_ = make_threaded_stepper(vehicles_, threads, [&](std::span<const Vehicle> part) {
+    return make_stepper(part, scheme, lanewise);
+  });
 }
 
 TelemetryRecord sample(const Vehicle& vehicle) noexcept {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -13,13 +14,14 @@
 
 namespace adstar::runtime {
 
-struct Vehicle {
-  RigidBody<double> body;
+/// What every step touches stands first, in three cache lines.
+struct alignas(64) Vehicle {
   State<double> state;
   std::vector<Torque<double>> torques;  ///< only the models that its scene names
-  Vec3<double> H_0;                     ///< inertial momentum at t = 0 [N m s]
-  double E_0 = 0;                       ///< rotational energy at t = 0 [J]
   std::uint32_t flags = 0;              ///< kFlagUnresolved... of the last step
+  RigidBody<double> body;
+  Vec3<double> H_0;  ///< inertial momentum at t = 0 [N m s]
+  double E_0 = 0;    ///< rotational energy at t = 0 [J]
 };
 
 /// Steps all vehicles with one scheme; keeps what that scheme prepares once for each body.
@@ -27,15 +29,20 @@ class Stepper {
  public:
   virtual ~Stepper() = default;
   /// Over [t_ns, t_ns + h_ns]; returns how many could not be resolved.
-  virtual std::size_t step(std::vector<Vehicle>& vehicles, std::int64_t t_ns, std::int64_t h_ns,
+  virtual std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
                            const StepLimits& limits) noexcept = 0;
 };
 
+/// How the vehicles of a fleet are stepped; the bits are the same. `automatic`: the widest
+/// instruction set that this processor has and the fleet fills.
+enum class Lanewise { automatic, alone, sse2, avx2, avx512 };
+
 class Fleet {
  public:
-  /// `scheme` and `limits` are the scene's. Throws std::invalid_argument for an unknown scheme.
+  /// `scheme` and `limits` are the scene's. Throws std::invalid_argument for an unknown scheme, and
+  /// for lanes that this processor or the scheme does not have. `threads`: of a step, at most.
   Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
-        const StepLimits& limits);
+        const StepLimits& limits, Lanewise lanewise = Lanewise::automatic, std::size_t threads = 1);
 
   /// Steps every vehicle over [t_ns, t_ns + h_ns]. Never throws, never allocates.
   /// Returns how many could not be resolved.

@@ -116,6 +116,9 @@ class RigidBody {
   const Sym3<T>& inertia() const { return J_; }
   /// One over moments(): descending.
   const std::array<T, 3>& inverse_moments() const { return inverse_moments_; }
+  const Sym3<T>& inverse_inertia() const { return J_inverse_; }
+  /// Whether the axes are principal ones: angular_velocity() then multiplies by three numbers.
+  bool is_diagonal() const { return diagonal_; }
 
  private:
   static Sym3<T> inverse(const Sym3<T>& m) {

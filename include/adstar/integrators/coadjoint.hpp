@@ -44,12 +44,16 @@ struct Coadjoint {
   static constexpr int kOrder = Tableau::kOrder;
   static constexpr double kStageReach = 1;
   static constexpr Claims kClaims{.exact_momentum = true};
+  /// step() also takes several bodies side by side.
+  static constexpr bool kTakesLanes = !(stage_overshoot<Tableau>() > 1);
   template <class T>
   using Body = RigidBody<T>;
 
-  /// Advances `state` by h [s]. Never throws, never allocates.
-  template <class T, class Torque>
-  static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque) {
+  /// Advances `state` by h [s]. Never throws, never allocates. `AnyBody`: RigidBody<T>, or the
+  /// bodies of several lanes.
+  template <class AnyBody, class T, class Torque>
+  [[gnu::always_inline]] static void step(const AnyBody& body, State<T>& state, const T& h,
+                                          const Torque& torque) {
     step(body, state, h, torque, std::make_integer_sequence<int, Tableau::kStages>{});
   }
 
@@ -69,9 +73,10 @@ struct Coadjoint {
     bool too_far = false;  ///< some stage turned past π, or too fast
   };
 
-  template <class T, class Torque, int... I>
-  static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque,
-                   std::integer_sequence<int, I...> stages) {
+  template <class AnyBody, class T, class Torque, int... I>
+  [[gnu::always_inline]] static void step(const AnyBody& body, State<T>& state, const T& h,
+                                          const Torque& torque,
+                                          std::integer_sequence<int, I...> stages) {
     const Quat<T> q_n{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
     const Vec3<T> Pi_n = rotate_inverse(q_n, state.H_I.value());
     Slopes<T, Torque> k;
@@ -110,9 +115,10 @@ struct Coadjoint {
            (h * h * squared_norm(omega_B) <= T(kFastestSquared));
   }
 
-  template <int I, class T, class Torque>
-  static void stage(const RigidBody<T>& body, const Quat<T>& q_n, const Vec3<T>& Pi_n, const T& h,
-                    const Torque& torque, Slopes<T, Torque>& k) {
+  template <int I, class AnyBody, class T, class Torque>
+  [[gnu::always_inline]] static void stage(const AnyBody& body, const Quat<T>& q_n,
+                                           const Vec3<T>& Pi_n, const T& h, const Torque& torque,
+                                           Slopes<T, Torque>& k) {
     if constexpr (I == 0) {
       // psi = 0: exp and dexpinv are the identity.
       const Vec3<T> omega_B = body.angular_velocity(Pi_n);

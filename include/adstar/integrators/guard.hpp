@@ -51,9 +51,9 @@ T angular_speed_bound_squared(const RigidBody<T>& body, const Vec3<T>& Pi_B, con
 }
 
 /// True only if one part will do, from |omega| ≤ (|H| + impulse)/J_min alone: no root, no rotation.
-/// Most steps are so far from the limit.
-template <class T>
-bool surely_one_part(const RigidBody<T>& body, const Vec3<T>& H_I, const T& impulse, const T& h,
+/// Most steps are so far from the limit. A mask for lanes.
+template <class AnyBody, class T>
+auto surely_one_part(const AnyBody& body, const Vec3<T>& H_I, const T& impulse, const T& h,
                      const T& stage_reach, const StepLimits& limits) {
   const T turn = h * stage_reach * body.inverse_moments()[0];
   const T limit = T(limits.substep_angle_rad);

@@ -1,0 +1,20 @@
+#pragma once
+// One step of one vehicle on its own, and what its flags say afterwards.
+
+#include "adstar/propagator.hpp"
+#include "service/runtime/fleet.hpp"
+
+namespace adstar::runtime {
+
+/// Returns whether the step was resolved.
+template <class Scheme>
+bool step_vehicle(const BodyOf<Scheme, double>& body, Vehicle& vehicle, std::int64_t t_ns,
+                  std::int64_t h_ns, const StepLimits& limits) noexcept {
+  const StepReport report =
+      advance<Scheme, double>(body, vehicle.state, vehicle.torques, t_ns, h_ns, limits);
+  vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
+                  (report.unresolved_edges ? kFlagUnresolvedEdges : 0U);
+  return report.resolved();
+}
+
+}  // namespace adstar::runtime
