@@ -111,8 +111,8 @@ struct Coadjoint {
   template <class T>
   [[gnu::always_inline]] static bool followed(const Rotation<T>& turn, const T& h,
                                               const Vec3<T>& omega_B) {
-    return (turn.squared_angle() <= T(kFarthestSquared)) &
-           (h * h * squared_norm(omega_B) <= T(kFastestSquared));
+    return turn.squared_angle() <= T(kFarthestSquared) &&
+           h * h * squared_norm(omega_B) <= T(kFastestSquared);
   }
 
   template <int I, class AnyBody, class T, class Torque>
@@ -147,7 +147,7 @@ struct Coadjoint {
       const Vec3<T> omega_B = body.angular_velocity(turn.exp_inverse(Pi_stage));
       k.psi[I] = turn.dexpinv_minus(omega_B);
       if constexpr (kOvershoots) {
-        k.too_far = k.too_far | !followed(turn, h, omega_B);
+        k.too_far = k.too_far || !followed(turn, h, omega_B);
       }
       if constexpr (!Torque::kFree) {
         const T since = h * Tableau::c[I].template as<T>();
