@@ -11,6 +11,7 @@
 // s, c of an angle φ_n and d = √(a²c² + g²s²): dφ_n/du = d. On rung 0 they are sn, cn, dn of u, on
 // the last sin ζ, cos ζ and the mean.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -112,30 +113,14 @@ Jacobi<T> on_the_circle(const EllipticLadder<T>& l, const Jacobi<T>& j, int rung
 
 }  // namespace detail
 
-namespace detail {
-template <class S, class T>
-Jacobi<S> down_to_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
-  Jacobi<S> j{S(phase.sin), S(phase.cos), rounded<S>(l.mean)};
-  for (int n = l.rungs - 1; n >= 1; --n) {
-    j = rung_down(rounded<S>(l.a[n]), rounded<S>(l.g[n]), j);
-  }
-  return j;
-}
-}  // namespace detail
-
-/// Rungs of which the rounding does not show; a longer ladder, beside the separatrix, is descended
-/// in the wider type.
-inline constexpr int kShortLadder = 6;
-
 /// Rung 1 of a phase's sine and cosine.
 template <class T>
 Jacobi<T> elliptic_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
-  if (l.rungs <= kShortLadder) {
-    return detail::on_the_circle(l, detail::down_to_rung_1<T>(l, phase), 1);
+  Jacobi<T> j{phase.sin, phase.cos, rounded<T>(l.mean)};
+  for (int n = std::min(l.rungs, EllipticLadder<T>::kMost) - 1; n >= 1; --n) {
+    j = detail::rung_down(rounded<T>(l.a[n]), rounded<T>(l.g[n]), j);
   }
-  using W = WiderOf<T>;
-  const Jacobi<W> j = detail::down_to_rung_1<W>(l, phase);
-  return detail::on_the_circle(l, Jacobi<T>{rounded<T>(j.s), rounded<T>(j.c), T(0)}, 1);
+  return detail::on_the_circle(l, j, 1);
 }
 
 /// sn, cn, dn from rung 1.
