@@ -174,19 +174,19 @@ ThirdKind<T> third_kind(const EllipticLadder<T>& l, WiderOf<T> y) {
   // 1e-4 of an ulp of the result: what a wider type knows below that, no time brings to light.
   const T negligible = T(1e-4) * std::numeric_limits<T>::epsilon();
   ThirdKind<T> k;
-  W a = l.mean, g = l.mean, gap = l.gap[l.rungs - 1];
+  W a = l.mean, gap = l.gap[l.rungs - 1];
   for (int n = 1; n < ThirdKind<T>::kMost; ++n) {
     if (n < l.rungs) {
       a = l.a[n];
-      g = l.g[n];
       gap = l.gap[n];
-    } else {
-      a = g = l.mean;
+    } else {  // a = g = mean, but for a gap that τ may still make felt
+      a = l.mean;
       gap = gap * gap / (W(8) * l.mean);
     }
-    const W ratio = gap / a;
+    const W ratio = gap / a;             // 1 - k'
+    const W one_k_prime = W(2) - ratio;  // 1 + k'
+    const W k2 = ratio * one_k_prime;
     const W y2 = y * y;
-    const W k2 = ratio * (a + g) / a;
     const W tau = y * sqrt((W(1) + y2) / (W(1) + k2 * y2));
     if (n == 1) {
       k.k_squared = rounded<T>(k2);
@@ -195,13 +195,13 @@ ThirdKind<T> third_kind(const EllipticLadder<T>& l, WiderOf<T> y) {
     }
     const W r = ratio * tau;
     k.r[n - 1] = rounded<T>(r);
-    k.k_prime[n - 1] = rounded<T>(g / a);
+    k.k_prime[n - 1] = rounded<T>(W(1) - ratio);
     k.terms = n;
-    k.mean_over_start = k.mean_over_start + (a + g) * r;
+    k.mean_over_start = k.mean_over_start + (a * one_k_prime) * r;
     if (!(k.r[n - 1] > negligible)) {
       break;
     }
-    y = tau + (g / a) * tau;
+    y = one_k_prime * tau;
   }
   return k;
 }
