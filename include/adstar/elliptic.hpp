@@ -11,6 +11,7 @@
 // s, c of an angle φ_n and d = √(a²c² + g²s²): dφ_n/du = d. On rung 0 they are sn, cn, dn of u, on
 // the last sin ζ, cos ζ and the mean.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -112,30 +113,14 @@ Jacobi<T> on_the_circle(const EllipticLadder<T>& l, const Jacobi<T>& j, int rung
 
 }  // namespace detail
 
-namespace detail {
-template <class S, class T>
-Jacobi<S> down_to_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
-  Jacobi<S> j{S(phase.sin), S(phase.cos), rounded<S>(l.mean)};
-  for (int n = l.rungs - 1; n >= 1; --n) {
-    j = rung_down(rounded<S>(l.a[n]), rounded<S>(l.g[n]), j);
-  }
-  return j;
-}
-}  // namespace detail
-
-/// Rungs of which the rounding does not show; a longer ladder, beside the separatrix, is descended
-/// in the wider type.
-inline constexpr int kShortLadder = 6;
-
 /// Rung 1 of a phase's sine and cosine.
 template <class T>
 Jacobi<T> elliptic_rung_1(const EllipticLadder<T>& l, const SinCos<T>& phase) {
-  if (l.rungs <= kShortLadder) {
-    return detail::on_the_circle(l, detail::down_to_rung_1<T>(l, phase), 1);
+  Jacobi<T> j{phase.sin, phase.cos, rounded<T>(l.mean)};
+  for (int n = std::min(l.rungs, EllipticLadder<T>::kMost) - 1; n >= 1; --n) {
+    j = detail::rung_down(rounded<T>(l.a[n]), rounded<T>(l.g[n]), j);
   }
-  using W = WiderOf<T>;
-  const Jacobi<W> j = detail::down_to_rung_1<W>(l, phase);
-  return detail::on_the_circle(l, Jacobi<T>{rounded<T>(j.s), rounded<T>(j.c), T(0)}, 1);
+  return detail::on_the_circle(l, j, 1);
 }
 
 /// sn, cn, dn from rung 1.
@@ -189,19 +174,19 @@ ThirdKind<T> third_kind(const EllipticLadder<T>& l, WiderOf<T> y) {
   // 1e-4 of an ulp of the result: what a wider type knows below that, no time brings to light.
   const T negligible = T(1e-4) * std::numeric_limits<T>::epsilon();
   ThirdKind<T> k;
-  W a = l.mean, g = l.mean, gap = l.gap[l.rungs - 1];
+  W a = l.mean, gap = l.gap[l.rungs - 1];
   for (int n = 1; n < ThirdKind<T>::kMost; ++n) {
     if (n < l.rungs) {
       a = l.a[n];
-      g = l.g[n];
       gap = l.gap[n];
-    } else {
-      a = g = l.mean;
+    } else {  // a = g = mean, but for a gap that τ may still make felt
+      a = l.mean;
       gap = gap * gap / (W(8) * l.mean);
     }
-    const W ratio = gap / a;
+    const W ratio = gap / a;             // 1 - k'
+    const W one_k_prime = W(2) - ratio;  // 1 + k'
+    const W k2 = ratio * one_k_prime;
     const W y2 = y * y;
-    const W k2 = ratio * (a + g) / a;
     const W tau = y * sqrt((W(1) + y2) / (W(1) + k2 * y2));
     if (n == 1) {
       k.k_squared = rounded<T>(k2);
@@ -210,13 +195,13 @@ ThirdKind<T> third_kind(const EllipticLadder<T>& l, WiderOf<T> y) {
     }
     const W r = ratio * tau;
     k.r[n - 1] = rounded<T>(r);
-    k.k_prime[n - 1] = rounded<T>(g / a);
+    k.k_prime[n - 1] = rounded<T>(W(1) - ratio);
     k.terms = n;
-    k.mean_over_start = k.mean_over_start + (a + g) * r;
+    k.mean_over_start = k.mean_over_start + (a * one_k_prime) * r;
     if (!(k.r[n - 1] > negligible)) {
       break;
     }
-    y = tau + (g / a) * tau;
+    y = one_k_prime * tau;
   }
   return k;
 }

@@ -80,6 +80,23 @@ void run(const char* name, const Eigen::Matrix3d& J, const V& omega_B,
               state.q_IB.z, H.x, H.y, H.z, state.work.value);
 }
 
+/// One shot from every start, of every length, stepping on from its end.
+void run_exact(const char* name, const Eigen::Matrix3d& J) {
+  const FreeBody<double> body{RigidBody<double>(J)};
+  Hash hash;
+  State<double> state;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto k = static_cast<double>(i);
+    const Quat<double> q = normalised(Quat<double>{1, -2, 0.01 * k, 3});
+    state = make_state(q, V{0.4, 0.001 * (k - 10'000), 0.1 * (k - 77)});
+    FreeExact::step(body, state, 0.01 + k * k, NoTorque{});
+    FreeExact::step(body, state, -0.1, NoTorque{});
+    hash.add(state);
+  }
+  std::printf("%s hash %016llx\n  q %a %a %a %a\n", name, hash.value(), state.q_IB.w, state.q_IB.x,
+              state.q_IB.y, state.q_IB.z);
+}
+
 void print_sines() {
   Hash hash;
   double x = 1e-9;
@@ -104,6 +121,10 @@ int main() {
   const Harmonic<double> inertial{
       Frame::inertial, {0.02, 0.0, 0.01}, {0.05, 0.3, 11}, {0, 0.1, 0.2}};
   print_sines();
+  run_exact("free, exact", paper);
+  run_exact("free, exact, full tensor", full);
+  run_exact("free, exact, even separatrix", tensor(1, 1.5, 3));
+  run_exact("free, exact, needle", needle);
   run("free", paper, slow, {});
   run("free, full tensor", full, slow, {});
   run("free, slow", full, micro, {}, 1'000'000);

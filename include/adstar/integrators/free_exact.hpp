@@ -18,7 +18,7 @@
 // (tests/conformance/free_exact_test.cpp). H_I: never touched. Energy: kept to round-off. On the
 // separatrix (D = 0) the body comes to rest on the middle axis; beside it, D is known to 1e-31 P²
 // only, so that what happens more than 36/λ after is decided by digits that the state has not.
-// Cost: two sine-cosines, some twenty roots, whatever the length of the step.
+// Cost: some 1.3 µs whatever the length of the step, most of it divisions and roots in twice the digits.
 
 #include <algorithm>
 #include <cmath>
