@@ -116,7 +116,7 @@ void run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
     }
     for (std::int64_t i = 0; i < parts; ++i) {
       Scheme::step(body, state, h,
-                   body_torque([x = segment.body.start.x, y = segment.body.start.y,
+                   rateless_body_torque([x = segment.body.start.x, y = segment.body.start.y,
                                 z = segment.body.start.z](const Stage<T>&) {
                      return TorqueSample<T>{{x, y, z}, {}};
                    }));
@@ -126,7 +126,7 @@ void run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
   const T t_s = seconds<T>(t_ns);
   for (std::int64_t i = 0; i < parts; ++i) {
     const T begun = T(i) * h;
-    Scheme::step(body, state, h, mixed_torque([&](const Stage<T>& stage) {
+    Scheme::step(body, state, h, rateless_mixed_torque([&](const Stage<T>& stage) {
                    const T since = begun + stage.time_s;
                    TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
                                        segment.inertial.start + since * segment.inertial.slope};
