@@ -134,8 +134,8 @@ bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
     }
     for (std::int64_t i = 0; i < parts; ++i) {
       all = follow<Scheme>(body, state, h,
-                           body_torque([x = segment.body.start.x, y = segment.body.start.y,
-                                        z = segment.body.start.z](const Stage<T>&) {
+                           rateless_body_torque([x = segment.body.start.x, y = segment.body.start.y,
+                                                 z = segment.body.start.z](const Stage<T>&) {
                              return TorqueSample<T>{{x, y, z}, {}};
                            })) &&
             all;
@@ -155,8 +155,8 @@ bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
   for (std::int64_t i = 0; i < parts; ++i) {
     const T begun = T(i) * h;
     const auto torque = [&](const Stage<T>& stage) { return at(begun + stage.time_s); };
-    all = (body_only ? follow<Scheme>(body, state, h, body_torque(torque))
-                     : follow<Scheme>(body, state, h, mixed_torque(torque))) &&
+    all = (body_only ? follow<Scheme>(body, state, h, rateless_body_torque(torque))
+                     : follow<Scheme>(body, state, h, rateless_mixed_torque(torque))) &&
           all;
   }
   return all;

@@ -14,14 +14,16 @@
 #include "adstar/integrators/moser_veselov.hpp"
 #include "adstar/integrators/quaternion.hpp"
 #include "adstar/integrators/rkmk4.hpp"
+#include "adstar/integrators/splitting.hpp"
 
 namespace adstar {
 
-using Schemes = std::tuple<CoadjointRk4, CoadjointMidpoint2, CoadjointDopri5, CoadjointVerner6,
-                           CoadjointFehlberg8, QuaternionRk4, ProjectedRk4, ProjectedDopri5,
-                           ProjectedVerner6, ProjectedFehlberg8, Rkmk4, LieNewmark, FreeExact,
-                           MoserVeselov2, MoserVeselov4, MoserVeselov6, MoserVeselov8,
-                           MoserVeselov10>;
+using Schemes =
+    std::tuple<CoadjointRk4, CoadjointMidpoint2, CoadjointDopri5, CoadjointVerner6,
+               CoadjointFehlberg8, QuaternionRk4, ProjectedRk4, ProjectedDopri5, ProjectedVerner6,
+               ProjectedFehlberg8, Rkmk4, LieNewmark, FreeExact, MoserVeselov2, MoserVeselov4,
+               MoserVeselov6, MoserVeselov8, MoserVeselov10, SplittingStrang, SplittingBlanesMoan4,
+               SplittingMcLachlan84, SplittingMcLachlan102>;
 
 inline std::vector<std::string_view> scheme_names() {
   return []<std::size_t... I>(std::index_sequence<I...>) {

@@ -172,12 +172,17 @@ struct MoserVeselov {
   static void step(const std::type_identity_t<Body<T>>& body, State<T>& state, const T& h,
                    const Torque&) {
     if constexpr (Torque::kFree) {
-      const Quat<T> q_n = state.q_IB;
-      const Vec3<T> Pi_n = rotate_inverse_exactly(q_n, state.H_I.value());
-      state.q_IB = turned(q_n, body.free_turn(Pi_n, h));
+      state.q_IB = moved(body, state.q_IB, state.H_I.value(), h);
     } else {
       state.q_IB.w = std::numeric_limits<T>::quiet_NaN();
     }
+  }
+
+  /// The attitude h [s] after q_IB, of a free body of momentum H_I [N m s].
+  template <class T>
+  [[gnu::always_inline]] static Quat<T> moved(const Body<T>& body, const Quat<T>& q_IB,
+                                              const Vec3<T>& H_I, const T& h) {
+    return turned(q_IB, body.free_turn(rotate_inverse_exactly(q_IB, H_I), h));
   }
 };
 

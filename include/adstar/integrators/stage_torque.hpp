@@ -32,11 +32,12 @@ struct NoTorque {
 };
 
 /// Any callable TorqueSample<T>(const Stage<T>&); Inertial = false promises that its inertial part
-/// is zero.
-template <class Function, bool Inertial>
+/// is zero, OfRate = false that it does not look at omega_B: a kick then asks once.
+template <class Function, bool Inertial, bool OfRate = true>
 struct StageTorque {
   static constexpr bool kFree = false;
   static constexpr bool kInertial = Inertial;
+  static constexpr bool kOfRate = OfRate;
   Function function;
 };
 
@@ -46,6 +47,16 @@ StageTorque<Function, false> body_torque(Function function) {
 }
 template <class Function>
 StageTorque<Function, true> mixed_torque(Function function) {
+  return {std::move(function)};
+}
+
+/// The same for torques of time and attitude alone.
+template <class Function>
+StageTorque<Function, false, false> rateless_body_torque(Function function) {
+  return {std::move(function)};
+}
+template <class Function>
+StageTorque<Function, true, false> rateless_mixed_torque(Function function) {
   return {std::move(function)};
 }
 
