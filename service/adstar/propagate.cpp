@@ -26,6 +26,7 @@ namespace {
 struct Options {
   std::string scene;
   std::string output;
+  std::size_t threads = 1;
   PropagateRequest request;
 };
 
@@ -82,7 +83,8 @@ int propagate(const Options& options) {
   const PropagatePlan plan = make_plan(scene, options.request);
   catch_stop_signals();
   Output output = options.output.empty() ? Output::to_stdout() : Output::to_file(options.output);
-  runtime::Fleet fleet(scene.spacecraft, plan.scheme, scene.simulation.limits);
+  runtime::Fleet fleet(scene.spacecraft, plan.scheme, scene.simulation.limits,
+                       runtime::Lanewise::automatic, options.threads);
   say_that_actuators_rest(scene);
 
   append_csv_header(output.buffer());
@@ -132,6 +134,10 @@ Verb add_propagate(CLI::App& program) {
       ->type_name("SCHEME");
   add_duration(*verb, "--every", options->request.every_ns,
                "A row that often, whole steps (default: first and last only)");
+  verb->add_option("--threads", options->threads,
+                   "Step parts of a large fleet at once; the bits are the same (default: 1)")
+      ->type_name("COUNT")
+      ->check(whole_number(1, 256));
   verb->add_option("--output", options->output,
                    "Write there, whole or not at all (default: stdout)")
       ->type_name("FILE");

@@ -139,6 +139,16 @@ TEST(Propagate, step_and_scheme_override_the_scene) {
   EXPECT_NE(other, own);
 }
 
+TEST(Propagate, threads_change_no_digit) {
+  const std::vector<std::string> one{"propagate", "configs/scenes/fleet.toml", "--duration", "1s"};
+  std::vector<std::string> three = one;
+  three.insert(three.end(), {"--threads", "3"});
+  const Outcome alone = client(one), together = client(three);
+  EXPECT_EQ(together.code, 0) << together.err;
+  EXPECT_GT(alone.out.size(), 1'000'000U);
+  EXPECT_TRUE(together.out == alone.out);
+}
+
 TEST(Propagate, numbers_read_back_as_the_same_doubles) {
   const auto lines =
       lines_of(client({"propagate", "configs/scenes/paper_forced.toml", "--every", "10s"}).out);

@@ -301,13 +301,13 @@ TEST_P(BatchOn, follows_harmonic_torques_into_every_quadrant_and_past_what_it_re
 
 TEST(Threads, step_a_fleet_to_the_same_bits_however_many_they_are) {
   Generator random(5);
-  for (const std::size_t size : {1, 63, 64, 65, 129, 1000}) {
+  for (const std::size_t size : {1U, 63U, 64U, 65U, 129U, 1000U}) {
     std::vector<scene::Spacecraft> crafts;
     for (std::size_t i = 0; i < size; ++i) {
       crafts.push_back(any_craft(random, 10 * kMs, 200 * kMs));
     }
     for (const Lanewise lanewise : {Lanewise::automatic, Lanewise::alone}) {
-      for (const std::size_t threads : {2, 3, 7, 64}) {
+      for (const std::size_t threads : {2U, 3U, 7U, 64U}) {
         Fleet many(crafts, "coadjoint_rk4", StepLimits{}, lanewise, threads);
         Fleet alone(crafts, "coadjoint_rk4", StepLimits{}, Lanewise::alone);
         EXPECT_EQ(difference(many, alone, 20, 10 * kMs), "")

@@ -113,6 +113,20 @@ unsigned bits_of(const LaneMask<double, Arch>& mask) {
   return bits;
 }
 
+/// What a step of that kind has changed, for the lanes of `which`.
+template <Load kLoad, class Arch>
+[[gnu::always_inline]] inline void store_state(const Group<Arch>& group, unsigned which,
+                                               const State<Lanes<double, Arch>>& state) {
+  const auto& [q, H, G, W] = state;
+  store_at<0, Arch>(group, which, q.w, q.x, q.y, q.z);
+  if constexpr (kLoad != Load::free) {
+    store_at<4, Arch>(group, which, H.x.value, H.x.carry, H.y.value, H.y.carry);
+    store_at<8, Arch>(group, which, H.z.value, H.z.carry, G.x.value, G.x.carry);
+    store_at<12, Arch>(group, which, G.y.value, G.y.carry, G.z.value, G.z.carry);
+    store_at<14, Arch>(group, which, G.z.value, G.z.carry, W.value, W.carry);
+  }
+}
+
 /// Adds every lane's harmonic torques at t [s], in their order, as add_varying() of propagator.hpp.
 /// Out of line: once a stage, and its registers are its own.
 template <class Arch>
@@ -130,18 +144,15 @@ template <class Arch>
     const auto phase = load_at<8, Arch>(from);
     const auto in_body = (amplitude.column[3] > L(0.5)) & (amplitude.column[3] < L(1.5));
     const auto in_inertial = amplitude.column[3] > L(1.5);
-    const auto axis = [&](std::size_t j) [[gnu::always_inline]] {
+    L* const body[] = {&sum.body.x, &sum.body.y, &sum.body.z};
+    L* const inertial[] = {&sum.inertial.x, &sum.inertial.y, &sum.inertial.z};
+    for (std::size_t j = 0; j < 3; ++j) {
       const L& size = amplitude.column[j];
       const auto none = (size <= L(0)) & (L(0) <= size);
-      return select(none, L(0), size * lane_sine(rate.column[j] * t_s + phase.column[j]));
-    };
-    const auto add = [&](L& body, L& inertial, const L& torque) [[gnu::always_inline]] {
-      body = select(in_body, body + torque, body);
-      inertial = select(in_inertial, inertial + torque, inertial);
-    };
-    add(sum.body.x, sum.inertial.x, axis(0));
-    add(sum.body.y, sum.inertial.y, axis(1));
-    add(sum.body.z, sum.inertial.z, axis(2));
+      const L torque = select(none, L(0), size * lane_sine(rate.column[j] * t_s + phase.column[j]));
+      *body[j] = select(in_body, *body[j] + torque, *body[j]);
+      *inertial[j] = select(in_inertial, *inertial[j] + torque, *inertial[j]);
+    }
   }
 }
 
@@ -208,20 +219,10 @@ template <class Scheme, Load kLoad, class Arch>
   const L q_squared = squared_norm(state.q_IB);
   const auto taken = one_part & (q_squared > L(0.5)) & (q_squared < L(2));
   const unsigned which = all(taken) ? wanted : wanted & bits_of<Arch>(taken);
-  const auto& [q_n, H, G, W] = state;
-  const auto store = [&](unsigned lanes) [[gnu::always_inline]] {
-    store_at<0, Arch>(group, lanes, q_n.w, q_n.x, q_n.y, q_n.z);
-    if constexpr (kLoad != Load::free) {
-      store_at<4, Arch>(group, lanes, H.x.value, H.x.carry, H.y.value, H.y.carry);
-      store_at<8, Arch>(group, lanes, H.z.value, H.z.carry, G.x.value, G.x.carry);
-      store_at<12, Arch>(group, lanes, G.y.value, G.y.carry, G.z.value, G.z.carry);
-      store_at<14, Arch>(group, lanes, G.z.value, G.z.carry, W.value, W.carry);
-    }
-  };
   if (which == kAll) {
-    store(kAll);
+    store_state<kLoad, Arch>(group, kAll, state);
   } else {
-    store(which);
+    store_state<kLoad, Arch>(group, which, state);
   }
   return which;
 }
