@@ -55,6 +55,19 @@ TrueState true_state(const RigidBody<Wide>& body, const State<Wide>& state) {
 
 Matrix inertia(const scene::Spacecraft& craft) { return craft.inertia_body_kg_m2.cast<Wide>(); }
 
+std::vector<TrueState> in_closed_form(const scene::Spacecraft& craft,
+                                      const std::vector<std::int64_t>& times_ns) {
+  const RigidBody<Wide> body(inertia(craft));
+  const BodyOf<FreeExact, Wide> prepared(body);
+  std::vector<TrueState> states;
+  for (const std::int64_t t_ns : times_ns) {
+    State<Wide> state = start_of(craft);
+    FreeExact::step(prepared, state, seconds<Wide>(t_ns), NoTorque{});
+    states.push_back(true_state(body, state));
+  }
+  return states;
+}
+
 /// `steps` between one instant and the next.
 std::vector<TrueState> by_small_steps(const scene::Spacecraft& craft,
                                       const std::vector<std::int64_t>& times_ns, std::int64_t h_ns,
@@ -121,6 +134,11 @@ Truth find_truth(const std::vector<scene::Spacecraft>& spacecraft,
   for (const scene::Spacecraft& craft : spacecraft) {
     const double before = static_cast<double>(truth.spacecraft.size()) / fleet;
     say(before);
+    if (craft.torques.empty()) {
+      truth.spacecraft.push_back(in_closed_form(craft, times_ns));
+      ++free;
+      continue;
+    }
     const std::int64_t horizon_ns = times_ns.back();
     std::int64_t h_ns = first_step_ns(craft, horizon_ns);
     const auto look = [&](std::int64_t) { say(before); };

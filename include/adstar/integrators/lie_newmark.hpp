@@ -2,7 +2,7 @@
 // Lie-Newmark: the member beta = 0, gamma = ½ of Newmark's family on SO(3) in convected form (Simo
 // and Vu-Quoc 1988), explicit in attitude and torque, implicit in the angular velocity. Of the explicit
 // Newmark forms that Krysl and Endres (2005, Int. J. Numer. Meth. Engng 62:2154) treat, which one this
-// is and why: service/decisions/0008.
+// is and why: service/decisions/0009.
 //
 //   alpha_n     = J⁻¹ (tau_n - omega_n × J omega_n)
 //   R_{n+1}     = R_n exp(h omega_n + ½ h² alpha_n)
