@@ -26,4 +26,14 @@ auto forced_among(std::tuple<Scheme...>) -> decltype(std::tuple_cat(
         std::conditional_t<Scheme::kClaims.free_only, std::tuple<>, std::tuple<Scheme>>>()...));
 using ForcedSchemeTypes = AsTestTypes<decltype(forced_among(std::declval<Schemes>()))>::type;
 
+/// Order on a free body: a splitting leaves it to its free scheme.
+template <class Scheme>
+constexpr int free_order() {
+  if constexpr (requires { Scheme::kFreeOrder; }) {
+    return Scheme::kFreeOrder;
+  } else {
+    return Scheme::kOrder;
+  }
+}
+
 }  // namespace adstar::test
