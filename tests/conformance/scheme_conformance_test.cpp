@@ -186,7 +186,7 @@ TYPED_TEST(SchemeOf, asks_for_the_torque_once_a_stage_and_within_the_step) {
   State<double> state = this->start;
   int asked = 0;
   double earliest = 1, latest = -1;
-  TypeParam::step(this->body, state, 0.5, body_torque([&](const Stage<double>& stage) {
+  TypeParam::step(this->body, state, 0.5, rateless_body_torque([&](const Stage<double>& stage) {
                     ++asked;
                     earliest = std::fmin(earliest, stage.time_s);
                     latest = std::fmax(latest, stage.time_s);
@@ -194,7 +194,7 @@ TYPED_TEST(SchemeOf, asks_for_the_torque_once_a_stage_and_within_the_step) {
                   }));
   EXPECT_GE(asked, 1);
   EXPECT_LE(asked, 4 * TypeParam::kOrder);
-  EXPECT_EQ(earliest, 0.0);
+  EXPECT_GE(earliest, 0.0);
   EXPECT_LE(latest, 0.5);
   EXPECT_GT(latest, 0.0);
 }

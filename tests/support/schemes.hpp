@@ -26,4 +26,14 @@ auto forced(std::tuple<Scheme...>) {
 }
 using ForcedSchemeTypes = AsTestTypes<decltype(forced(Schemes{}))>::type;
 
+/// Order on a free body: a splitting leaves it to its free scheme.
+template <class Scheme>
+constexpr int free_order() {
+  if constexpr (requires { Scheme::kFreeOrder; }) {
+    return Scheme::kFreeOrder;
+  } else {
+    return Scheme::kOrder;
+  }
+}
+
 }  // namespace adstar::test

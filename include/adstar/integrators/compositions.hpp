@@ -7,7 +7,7 @@
 //   Σ b_i (c_i - ½)^{2k} = 1/((2k + 1) 4^k), k < n        the kicks are a quadrature of order 2n
 // Where B is smaller than A by ε, the last leaves ε h^{2n} + ε² h^p: "order (2n, p)" (McLachlan 1995;
 // Laskar and Robutel 2001). Each constant is a double and the double nearest to what is left: 106 bits
-// (tests/conformance/composition_test.cpp holds all conditions to 1e-31).
+// (tests/conformance/splitting_test.cpp holds all conditions to 1e-31).
 
 namespace adstar {
 
