@@ -181,14 +181,9 @@ TYPED_TEST(OrderOf, is_as_stated_against_the_closed_form_of_an_axisymmetric_body
     }
     return angle_between(exact, state.q_IB);
   };
-  const Errors coarse = this->errors(J, load, exact, this->kCoarse);
-  const Errors fine = this->errors(J, load, exact, 2 * this->kCoarse);
-  EXPECT_NEAR(this->order(coarse.attitude, fine.attitude),
-              load.torque ? kStated : test::free_order<TypeParam>(), 0.15);
-  if (!TypeParam::kClaims.exact_momentum) {
-    EXPECT_GT(this->order(coarse.momentum, fine.momentum), kStated - 0.25);
-  } else if (load.torque) {
-  }
+  EXPECT_NEAR(this->order(error(this->kCoarse), error(2 * this->kCoarse)),
+              test::free_order<TypeParam>(), 0.15);
+}
 
 }  // namespace
 }  // namespace adstar
