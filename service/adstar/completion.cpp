@@ -1,5 +1,6 @@
 // adstar completion bash: a script made from the option tree, so that it cannot fall behind it.
 
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -35,11 +36,13 @@ std::string values_of(const CLI::Option& option) {
     const auto names = scheme_names();
     return spaced({names.begin(), names.end()});
   }
-  if (type == "csv|json") {
-    return "csv json";
+  if (type == "bash" || type == "paper") {
+    return type;
   }
-  if (type == "bash") {
-    return "bash";
+  if (type.find('|') != std::string::npos) {
+    std::string words = type;
+    std::replace(words.begin(), words.end(), '|', ' ');
+    return words;
   }
   return "";
 }

@@ -85,9 +85,10 @@ Verb add_reproduce(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb =
       program.add_subcommand("reproduce", "Compute published figures anew, as CSV and SVG");
-  verb->add_option("WHAT", options->what, "paper: Figures 1 to 3 of Terze, Müller and Zlatar")
+  verb->add_option("WHAT", options->what, "Figures 1 to 3 of Terze, Müller and Zlatar")
       ->required()
-      ->check(CLI::IsMember({"paper"}));
+      ->check(CLI::IsMember({"paper"}))
+      ->type_name("paper");
   add_duration(*verb, "--step", options->step_ns, "Step of all three schemes (default: 100ms)");
   add_duration(*verb, "--duration", options->duration_ns, "How long (default: 100s)");
   verb->add_option("--output", options->directory, "Directory (default: the present one)")

@@ -189,13 +189,13 @@ Verb add_trade(CLI::App& program) {
                "With --accuracy: what one step of the whole scene may cost");
   verb->add_option("--schemes", options->schemes, "Only these, separated by commas")
       ->delimiter(',')
-      ->type_name("NAMES");
+      ->type_name("SCHEME");
   verb->add_option("--steps", options->steps, "Only these, separated by commas")
       ->delimiter(',')
       ->type_name("DURATIONS");
-  verb->add_option("--format", options->format, "table or json")
+  verb->add_option("--format", options->format, "For people or for machines")
       ->check(CLI::IsMember({"table", "json"}))
-      ->type_name("FORMAT");
+      ->type_name("table|json");
   verb->add_option("--svg", options->svg, "Draw it there")->type_name("FILE");
   verb->footer(
       "Example:\n"

@@ -74,7 +74,9 @@ class OrderOf : public testing::Test {
   static constexpr int kSeconds = 2;
   /// Steps enough to be in the asymptotic range: many for Dormand and Prince, whose leading error is
   /// small beside the next; few for order eight, or nothing would be left of 113 bits.
-  static constexpr int kCoarse = Scheme::kOrder == 5 ? 2048 : Scheme::kOrder > 6 ? 64 : 128;
+  static constexpr int kCoarse = Scheme::kOrder == 5              ? 2048
+                                 : test::free_order<Scheme>() > 6 ? 64
+                                                                  : 128;
 
   static State<Quad> initial(const RigidBody<Quad>& body) {
     const Quat<Quad> q = normalised(Quat<Quad>{Quad(3), Quad(-1), Quad(2), Quad(1)});

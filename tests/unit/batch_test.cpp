@@ -322,7 +322,10 @@ TEST(Batch, has_kernels_for_every_scheme_that_takes_lanes) {
       [](auto... scheme) {
         const auto check = [](auto s) {
           using Scheme = decltype(s);
-          const bool takes_lanes = requires { Scheme::kTakesLanes; };
+          bool takes_lanes = false;
+          if constexpr (requires { Scheme::kTakesLanes; }) {
+            takes_lanes = Scheme::kTakesLanes;
+          }
           for (const batch::InstructionSet set : batch::kInstructionSets) {
             EXPECT_EQ(batch::find_kernels(Scheme::kName, set) != nullptr, takes_lanes)
                 << Scheme::kName << ": see service/batch/table.hpp";

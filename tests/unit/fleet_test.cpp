@@ -36,7 +36,9 @@ TEST(Fleet, steps_with_every_scheme_of_the_table) {
     const State<double> before = fleet.vehicles()[0].state;
     EXPECT_EQ(fleet.step(0, 10 * kMs), 0U) << scheme;
     EXPECT_FALSE(fleet.vehicles()[0].state.q_IB == before.q_IB) << scheme;
-    EXPECT_EQ(fleet.vehicles()[0].state.H_I, before.H_I) << scheme;
+    if (claims_of(scheme).exact_momentum) {
+      EXPECT_EQ(fleet.vehicles()[0].state.H_I, before.H_I) << scheme;
+    }
   }
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // amplitude · sin(angular_frequency · t + phase), per axis; t is simulation time.
 
-#include "adstar/torques/frame.hpp"
 #include "adstar/sine.hpp"
+#include "adstar/torques/frame.hpp"
 
 namespace adstar {
 
