@@ -31,7 +31,7 @@ constexpr T squared_norm(const Quat<T>& q) {
 
 /// v_I = R_IB v_B:  v + w t + u×t with t = u×2v.
 template <class T>
-constexpr Vec3<T> rotate(const Quat<T>& q, const Vec3<T>& v) {
+[[gnu::always_inline]] constexpr Vec3<T> rotate(const Quat<T>& q, const Vec3<T>& v) {
   const Vec3<T> u{q.x, q.y, q.z};
   const Vec3<T> t = cross(u, T(2) * v);
   return v + (q.w * t + cross(u, t));
@@ -39,7 +39,7 @@ constexpr Vec3<T> rotate(const Quat<T>& q, const Vec3<T>& v) {
 
 /// v_B = R_IBᵀ v_I.
 template <class T>
-constexpr Vec3<T> rotate_inverse(const Quat<T>& q, const Vec3<T>& v) {
+[[gnu::always_inline]] constexpr Vec3<T> rotate_inverse(const Quat<T>& q, const Vec3<T>& v) {
   const Vec3<T> u{q.x, q.y, q.z};
   const Vec3<T> t = cross(u, T(2) * v);
   return v + (cross(u, t) - q.w * t);

@@ -99,43 +99,62 @@ T impulse_bound(const Segment<T>& s, const T& length_s) {
   return length_s * (largest(s.body) + largest(s.inertial) + s.varying_bound);
 }
 
-/// `parts` equal steps of the scheme over a segment beginning at t_ns.
+/// One step of the scheme; false when it could not follow the motion into a unit quaternion: then the
+/// attitude stays as it was, and H_I has taken its impulse all the same.
+template <class Scheme, class T, class StepTorque>
+[[gnu::always_inline]] inline bool follow(const BodyOf<Scheme, T>& body, State<T>& state,
+                                          const T& h, const StepTorque& torque) {
+  const Quat<T> q_before{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
+  Scheme::step(body, state, h, torque);
+  const T q_squared = squared_norm(state.q_IB);
+  if (q_squared > T(0.5) && q_squared < T(2)) {
+    return true;
+  }
+  state.q_IB = q_before;
+  return false;
+}
+
+/// `parts` equal steps of the scheme over a segment beginning at t_ns; true when all were followed.
 template <class Scheme, class T>
-void run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const Torque<T>> torques,
+bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const Torque<T>> torques,
                  const Segment<T>& segment, std::int64_t t_ns, const T& length_s,
                  std::int64_t parts) {
   const T h = length_s / T(parts);
   const bool inertial = !is_zero(segment.inertial.start) || !is_zero(segment.inertial.slope);
   const bool level = is_zero(segment.body.slope) && is_zero(segment.inertial.slope);
+  bool all = true;
   if (!segment.varying && !inertial && level) {
     if (is_zero(segment.body.start)) {
       for (std::int64_t i = 0; i < parts; ++i) {
-        Scheme::step(body, state, h, NoTorque{});
+        all = follow<Scheme>(body, state, h, NoTorque{}) && all;
       }
-      return;
+      return all;
     }
     for (std::int64_t i = 0; i < parts; ++i) {
-      Scheme::step(body, state, h,
-                   rateless_body_torque([x = segment.body.start.x, y = segment.body.start.y,
-                                z = segment.body.start.z](const Stage<T>&) {
-                     return TorqueSample<T>{{x, y, z}, {}};
-                   }));
+      all = follow<Scheme>(body, state, h,
+                           rateless_body_torque([x = segment.body.start.x, y = segment.body.start.y,
+                                                 z = segment.body.start.z](const Stage<T>&) {
+                             return TorqueSample<T>{{x, y, z}, {}};
+                           })) &&
+            all;
     }
-    return;
+    return all;
   }
   const T t_s = seconds<T>(t_ns);
   for (std::int64_t i = 0; i < parts; ++i) {
     const T begun = T(i) * h;
-    Scheme::step(body, state, h, rateless_mixed_torque([&](const Stage<T>& stage) {
-                   const T since = begun + stage.time_s;
-                   TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
-                                       segment.inertial.start + since * segment.inertial.slope};
-                   if (segment.varying) {
-                     add_varying(tau, torques, t_s + since);
-                   }
-                   return tau;
-                 }));
+    const auto torque = rateless_mixed_torque([&](const Stage<T>& stage) {
+      const T since = begun + stage.time_s;
+      TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
+                          segment.inertial.start + since * segment.inertial.slope};
+      if (segment.varying) {
+        add_varying(tau, torques, t_s + since);
+      }
+      return tau;
+    });
+    all = follow<Scheme>(body, state, h, torque) && all;
   }
+  return all;
 }
 
 }  // namespace detail
@@ -172,15 +191,10 @@ StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
     if (!surely_one_part(body, state.H_I.value(), impulse, length_s, reach, limits)) {
       count = count_substeps(body, body_momentum(state), impulse, length_s, reach, limits);
     }
-    const Quat<T> q_before{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
-    detail::run_segment<Scheme>(body, state, torques, segment, t_ns, length_s, count.parts);
+    const bool followed =
+        detail::run_segment<Scheme>(body, state, torques, segment, t_ns, length_s, count.parts);
     report.parts += count.parts;
-    report.unresolved_angle = report.unresolved_angle || !count.within_limit;
-    const T q_squared = squared_norm(state.q_IB);
-    if (!(q_squared > T(0.5) && q_squared < T(2))) {
-      state.q_IB = q_before;
-      report.unresolved_angle = true;
-    }
+    report.unresolved_angle = report.unresolved_angle || !count.within_limit || !followed;
     t_ns = next_ns;
   }
   return report;

@@ -95,9 +95,9 @@ class Rotation {
   }
 
   /// exp(psi) v
-  Vec3<T> exp(const Vec3<T>& v) const { return about(v, A_, B_); }
+  [[gnu::always_inline]] Vec3<T> exp(const Vec3<T>& v) const { return about(v, A_, B_); }
   /// exp(-psi) v
-  Vec3<T> exp_inverse(const Vec3<T>& v) const { return about(v, -A_, B_); }
+  [[gnu::always_inline]] Vec3<T> exp_inverse(const Vec3<T>& v) const { return about(v, -A_, B_); }
   /// dexp(psi) v: d/dt exp(psi(t)) = hat(dexp(psi) psi') exp(psi)
   Vec3<T> dexp(const Vec3<T>& v) const { return about(v, B_, E_); }
   /// dexp⁻¹(psi) v
@@ -105,7 +105,7 @@ class Rotation {
   /// dexp⁻¹(-psi) v: the psi' of the body-frame (left-trivialised) kinematics R' = R hat(v), R =
   /// R_n exp(psi). As a matrix, (1 - g s) 1 + ½ hat(psi) + g psi psiᵀ: its entries are ready before
   /// v is, and v waits for them in a step.
-  Vec3<T> dexpinv_minus(const Vec3<T>& v) const {
+  [[gnu::always_inline]] Vec3<T> dexpinv_minus(const Vec3<T>& v) const {
     const Vec3<T> gp = g_ * psi_;
     const Vec3<T> half = T(0.5) * psi_;
     const T d = T(1) - g_ * s_;
@@ -117,7 +117,9 @@ class Rotation {
   /// |psi|² [rad²]
   const T& squared_angle() const { return s_; }
   /// The unit quaternion of exp(psi).
-  Quat<T> quaternion() const { return {C_, half_S_ * psi_.x, half_S_ * psi_.y, half_S_ * psi_.z}; }
+  [[gnu::always_inline]] Quat<T> quaternion() const {
+    return {C_, half_S_ * psi_.x, half_S_ * psi_.y, half_S_ * psi_.z};
+  }
 
  private:
   using HalfAngle = detail::HalfAngleSeries<T>;
@@ -165,7 +167,7 @@ class Rotation {
   }
 
   /// v + a psi×v + b psi×(psi×v)
-  Vec3<T> about(const Vec3<T>& v, const T& a, const T& b) const {
+  [[gnu::always_inline]] Vec3<T> about(const Vec3<T>& v, const T& a, const T& b) const {
     const Vec3<T> c = cross(psi_, v);
     return v + (a * c + b * cross(psi_, c));
   }

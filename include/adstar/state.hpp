@@ -29,7 +29,7 @@ template <class T>
 struct VecSum {
   Sum<T> x, y, z;
 
-  void add(const Vec3<T>& term) {
+  [[gnu::always_inline]] void add(const Vec3<T>& term) {
     x.add(term.x);
     y.add(term.y);
     z.add(term.z);

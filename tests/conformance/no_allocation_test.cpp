@@ -45,7 +45,8 @@ TEST(AllocationCount, sees_every_way_to_the_heap) {
 template <class Scheme>
 class StepsOf : public testing::Test {
  public:
-  RigidBody<double> body{Eigen::Matrix3d(Eigen::Vector3d(0.9144, 1.098, 1.66).asDiagonal())};
+  BodyOf<Scheme, double> body{
+      RigidBody<double>{Eigen::Matrix3d(Eigen::Vector3d(0.9144, 1.098, 1.66).asDiagonal())}};
 
   std::uint64_t allocations(const std::vector<Torque<double>>& torques, const V& omega_B,
                             double scale = 1) {

@@ -31,7 +31,7 @@ Eigen::Matrix3d inertia() {
 template <class Scheme>
 class Advance : public testing::Test {
  public:
-  RigidBody<double> body{inertia()};
+  BodyOf<Scheme, double> body{RigidBody<double>{inertia()}};
   State<double> start = spinning({0.45549, 0.82623, 0.03476});
 
   State<double> spinning(const V& omega_B) const {
@@ -72,8 +72,10 @@ TYPED_TEST(Advance, delivers_an_inertial_pulse_at_any_phase_against_the_step) {
         this->run({pulse(Frame::inertial, from, from + length, torque)}, kStep, 10);
     const V impulse = seconds<double>(length) * torque;
     const V change = end.H_I.value() - this->start.H_I.value();
-    ASSERT_LT(norm(change - impulse), 4 * kEpsilon * norm(this->start.H_I.value()))
-        << from << " + " << length;
+    if (TypeParam::kClaims.exact_momentum) {
+      ASSERT_LT(norm(change - impulse), 4 * kEpsilon * norm(this->start.H_I.value()))
+          << from << " + " << length;
+    }
     ASSERT_LT(norm(end.impulse_I.value() - impulse), 4 * kEpsilon * norm(impulse))
         << from << " + " << length;
   }
@@ -166,8 +168,16 @@ TYPED_TEST(Advance, keeps_its_order_when_torques_jump_inside_the_steps) {
     return angle_between(truth,
                          this->run({pulse(Frame::body, from, to, torque)}, h_ns, steps).q_IB);
   };
-  const double order = std::log2(error(100 * kMillisecond) / error(50 * kMillisecond));
-  EXPECT_NEAR(order, TypeParam::kOrder, 0.5);  // the splits differ from step to step
+  if (TypeParam::kOrder > 6) {  // at round-off, which an edge overlooked would not be
+    EXPECT_LT(error(200 * kMillisecond), 1e-11);
+    return;
+  }
+  // The splits differ from step to step: the measured order scatters, upwards for a scheme whose
+  // leading error is small.
+  const std::int64_t h = (TypeParam::kOrder > 4 ? 200 : 100) * kMillisecond;
+  const double order = std::log2(error(h) / error(h / 2));
+  EXPECT_GT(order, TypeParam::kOrder - 0.5);
+  EXPECT_LT(order, TypeParam::kOrder + (TypeParam::kOrder > 4 ? 2 : 0.5));
 }
 
 TYPED_TEST(Advance, splits_a_step_that_turns_too_far) {

@@ -40,6 +40,9 @@ class SchemeOf : public testing::Test {
 TYPED_TEST_SUITE(SchemeOf, test::ForcedSchemeTypes);
 
 TYPED_TEST(SchemeOf, keeps_the_inertial_momentum_of_a_free_body_to_the_last_bit) {
+  if constexpr (!TypeParam::kClaims.exact_momentum) {
+    GTEST_SKIP() << "claims no exact momentum";
+  }
   State<double> state = this->start;
   for (int n = 0; n < 100'000; ++n) {
     TypeParam::step(this->body, state, 0.01, NoTorque{});
@@ -51,6 +54,9 @@ TYPED_TEST(SchemeOf, keeps_the_inertial_momentum_of_a_free_body_to_the_last_bit)
 }
 
 TYPED_TEST(SchemeOf, keeps_it_at_a_step_so_coarse_that_the_attitude_is_lost) {
+  if constexpr (!TypeParam::kClaims.exact_momentum) {
+    GTEST_SKIP() << "claims no exact momentum";
+  }
   State<double> state = this->start;
   for (int n = 0; n < 1000; ++n) {
     TypeParam::step(this->body, state, 1.5, NoTorque{});
@@ -73,6 +79,9 @@ TYPED_TEST(SchemeOf, stays_on_the_rotation_group) {
 }
 
 TYPED_TEST(SchemeOf, changes_momentum_by_the_impulse_alone) {
+  if constexpr (!TypeParam::kClaims.exact_momentum) {
+    GTEST_SKIP() << "claims no exact momentum";
+  }
   State<double> state = this->start;
   const double h = 0.01;
   for (int n = 0; n < 100'000; ++n) {
@@ -87,8 +96,11 @@ TYPED_TEST(SchemeOf, changes_momentum_by_the_impulse_alone) {
 }
 
 TYPED_TEST(SchemeOf, delivers_a_constant_inertial_torque_exactly) {
+  if constexpr (!TypeParam::kClaims.exact_momentum) {
+    GTEST_SKIP() << "claims no exact momentum";
+  }
   State<double> state = this->start;
-  const TorqueSample<double> tau{{}, {0.25, -0.5, 0.125}};
+  const TorqueSample<double> tau{{}, {0.25 / 64, -0.5 / 64, 0.125 / 64}};
   const double h = 1.0 / 128;
   for (int n = 0; n < 100'000; ++n) {
     TypeParam::step(this->body, state, h, mixed_torque([&](const Stage<double>&) { return tau; }));
@@ -111,7 +123,8 @@ TYPED_TEST(SchemeOf, accounts_for_the_energy_by_the_work) {
                       }));
     }
     const double gained = this->body.energy(body_momentum(state)) - energy_0;
-    EXPECT_NEAR(gained, state.work.value, TypeParam::kOrder >= 4 ? 1e-13 : 1e-6)
+    const double round_off = TypeParam::kClaims.exact_momentum ? 1e-13 : 1e-11;
+    EXPECT_NEAR(gained, state.work.value, TypeParam::kOrder >= 4 ? round_off : 1e-6)
         << "inertial: " << inertial;
     EXPECT_GT(std::fabs(gained), 1e-3);
   }
@@ -152,7 +165,8 @@ TYPED_TEST(SchemeOf, spins_up_a_body_from_rest_by_torque_over_inertia) {
   for (int n = 0; n < 1000; ++n) {
     TypeParam::step(brick, state, 1e-3, body_torque([&](const Stage<double>&) { return tau; }));
   }
-  EXPECT_NEAR(brick.angular_velocity(body_momentum(state)).z, 0.25, 1e-15);
+  EXPECT_NEAR(brick.angular_velocity(body_momentum(state)).z, 0.25,
+              TypeParam::kClaims.exact_momentum ? 1e-15 : 2e-14);
   EXPECT_NEAR(angle_between(Quat<double>{}, state.q_IB), 0.125, 1e-13);  // ½ (tau/J) t²
   EXPECT_NEAR(state.work.value, 0.0625, 1e-14);
 }
@@ -174,17 +188,28 @@ TYPED_TEST(SchemeOf, asks_for_the_torque_once_a_stage_and_within_the_step) {
   EXPECT_GT(latest, 0.0);
 }
 
+/// Stages of these are quaternions off the sphere: a turn of x is off by some x³.
+template <class Tableau, bool Projected>
+constexpr bool leaves_the_sphere(const QuaternionRk<Tableau, Projected>*) {
+  return true;
+}
+constexpr bool leaves_the_sphere(const void*) { return false; }
+
 TYPED_TEST(SchemeOf, tells_the_torque_the_attitude_and_rate_that_it_acts_at) {
   const RigidBody<double> brick(Eigen::Matrix3d(Eigen::Vector3d(1.0, 1.5, 2.0).asDiagonal()));
   const V omega{0, 0, 0.4};
-  State<double> state = at(brick, {}, omega);
-  TypeParam::step(brick, state, 0.5, body_torque([&](const Stage<double>& stage) {
-                    const double half = 0.5 * 0.4 * stage.time_s;
-                    const Quat<double> expected{std::cos(half), 0, 0, std::sin(half)};
-                    EXPECT_LT(angle_between(expected, stage.q_IB()), 1e-15);
-                    EXPECT_LT(norm(stage.omega_B - omega), 1e-15);
-                    return TorqueSample<double>{};
-                  }));
+  for (const double h : {0.5, 1e-4}) {
+    const double x = 0.4 * h;
+    const double off = leaves_the_sphere(static_cast<TypeParam*>(nullptr)) ? 0.1 * x * x * x : 0;
+    State<double> state = at(brick, {}, omega);
+    TypeParam::step(brick, state, h, body_torque([&](const Stage<double>& stage) {
+                      const double half = 0.5 * 0.4 * stage.time_s;
+                      const Quat<double> expected{std::cos(half), 0, 0, std::sin(half)};
+                      EXPECT_LT(angle_between(expected, stage.q_IB()), 1e-15 + off);
+                      EXPECT_LT(norm(stage.omega_B - omega), 1e-15);
+                      return TorqueSample<double>{};
+                    }));
+  }
 }
 
 TYPED_TEST(SchemeOf, gives_the_same_bits_twice) {

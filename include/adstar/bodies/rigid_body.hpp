@@ -93,7 +93,7 @@ class RigidBody {
         diagonal_(J_.xy == T(0) && J_.xz == T(0) && J_.yz == T(0)) {}
 
   /// omega_B = J_B⁻¹ Pi_B [rad/s]
-  Vec3<T> angular_velocity(const Vec3<T>& Pi_B) const {
+  [[gnu::always_inline]] Vec3<T> angular_velocity(const Vec3<T>& Pi_B) const {
     if (diagonal_) {
       return {J_inverse_.xx * Pi_B.x, J_inverse_.yy * Pi_B.y, J_inverse_.zz * Pi_B.z};
     }
@@ -103,6 +103,10 @@ class RigidBody {
   Vec3<T> momentum(const Vec3<T>& omega_B) const { return J_ * omega_B; }
   /// E = ½ omega_B · Pi_B [J]
   T energy(const Vec3<T>& Pi_B) const { return T(0.5) * dot(angular_velocity(Pi_B), Pi_B); }
+  /// B is a frame of principal axes: J_B is diagonal.
+  bool on_principal_axes() const { return diagonal_; }
+  /// Diagonal of J_B⁻¹ [1/(kg m²)].
+  Vec3<T> inverse_diagonal() const { return {J_inverse_.xx, J_inverse_.yy, J_inverse_.zz}; }
   /// Ascending [kg m²].
   const std::array<T, 3>& moments() const { return frame_.moments; }
   /// q_BP: principal axes, in the order of moments(), to body axes. Any of them where moments are equal.

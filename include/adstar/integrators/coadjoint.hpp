@@ -21,8 +21,11 @@
 // would split a step of 1 rad into 43 parts, where in truth
 //   psi_i = c_i h psi'_0 + h Σ_j a_ij (psi'_j - psi'_0)
 // and slopes that agree leave c_i h|omega|. How well they agree is known only inside the step, so it
-// is there that stages are watched: one past π, where dexpinv nears its pole at 2π, makes q_IB no
-// number, and advance() says so. The guard counts with c_i ≤ 1 (tests/conformance/overshoot_test.cpp).
+// is there that stages are watched. A stage past π (dexpinv has its pole at 2π), or at a rate that
+// would turn it by more than 2 rad in the step, which no true motion within the guard's 1 rad has,
+// makes q_IB no number, and advance() says so. The rate is the sharper sign: Pi_B is carried over by
+// the attitude of the stage, so an error of angle e leaks e|Pi| into the lightest axis, and a needle
+// spins there at e|Pi|/J_min. The guard counts with c_i ≤ 1 (tests/conformance/overshoot_test.cpp).
 
 #include <limits>
 #include <utility>
@@ -53,23 +56,25 @@ struct Coadjoint {
  private:
   static constexpr bool kOvershoots = stage_overshoot<Tableau>() > 1;
   static constexpr double kFarthestSquared = 9.8696;  ///< π² [rad²]
+  static constexpr double kFastestSquared = 4;        ///< of h·omega_B [rad²]
 
-  /// Slopes at the stages.
-  template <class T>
+  /// Slopes at the stages; room only for what this torque has.
+  template <class T, class Torque>
   struct Slopes {
+    static constexpr int kForced = Torque::kFree ? 1 : Tableau::kStages;
     Vec3<T> psi[Tableau::kStages];
-    Vec3<T> body_impulse[Tableau::kStages];
-    Vec3<T> inertial_impulse[Tableau::kStages];
-    T work[Tableau::kStages];
-    bool too_far = false;  ///< some stage turned past π
+    Vec3<T> body_impulse[kForced];
+    Vec3<T> inertial_impulse[Torque::kInertial ? Tableau::kStages : 1];
+    T work[kForced];
+    bool too_far = false;  ///< some stage turned past π, or too fast
   };
 
   template <class T, class Torque, int... I>
   static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque,
                    std::integer_sequence<int, I...> stages) {
-    const Quat<T> q_n = state.q_IB;
+    const Quat<T> q_n{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
     const Vec3<T> Pi_n = rotate_inverse(q_n, state.H_I.value());
-    Slopes<T> k;
+    Slopes<T, Torque> k;
     (stage<I>(body, q_n, Pi_n, h, torque, k), ...);
 
     const Vec3<T> psi = weighted(h, k.psi, stages);
@@ -86,17 +91,28 @@ struct Coadjoint {
     }
     // Renormalised before the product, not after: the next step need not wait for it, and |q|²
     // stays 1 to round-off.
-    state.q_IB = renormalised(q_n) * Rotation<T>(psi).quaternion();
+    const Rotation<T> turn(psi);
+    state.q_IB = renormalised(q_n) * turn.quaternion();
     if constexpr (kOvershoots) {
-      if (k.too_far) {
+      const Vec3<T> Pi_end =
+          turn.exp_inverse(Torque::kFree ? Pi_n : rotate_inverse(q_n, state.H_I.value()));
+      if (k.too_far || !followed(turn, h, body.angular_velocity(Pi_end))) {
         state.q_IB.w = std::numeric_limits<T>::quiet_NaN();
       }
     }
   }
 
+  /// Within π, and at no more than 2 rad a step; false for what is no number.
+  template <class T>
+  [[gnu::always_inline]] static bool followed(const Rotation<T>& turn, const T& h,
+                                              const Vec3<T>& omega_B) {
+    return turn.squared_angle() <= T(kFarthestSquared) &&
+           h * h * squared_norm(omega_B) <= T(kFastestSquared);
+  }
+
   template <int I, class T, class Torque>
   static void stage(const RigidBody<T>& body, const Quat<T>& q_n, const Vec3<T>& Pi_n, const T& h,
-                    const Torque& torque, Slopes<T>& k) {
+                    const Torque& torque, Slopes<T, Torque>& k) {
     if constexpr (I == 0) {
       // psi = 0: exp and dexpinv are the identity.
       const Vec3<T> omega_B = body.angular_velocity(Pi_n);
@@ -114,11 +130,8 @@ struct Coadjoint {
     } else {
       constexpr auto earlier = std::make_integer_sequence<int, I>{};
       const Rotation<T> turn(combined<I>(h, k.psi, earlier));
-      if constexpr (kOvershoots) {
-        k.too_far = k.too_far || turn.squared_angle() > T(kFarthestSquared);
-      }
       // Pi_B = exp(-psi) (R_nᵀ (H_n + G) + J)
-      Vec3<T> Pi_stage = Pi_n;
+      Vec3<T> Pi_stage{Pi_n.x, Pi_n.y, Pi_n.z};
       if constexpr (!Torque::kFree) {
         Pi_stage = Pi_stage + combined<I>(h, k.body_impulse, earlier);
       }
@@ -127,6 +140,9 @@ struct Coadjoint {
       }
       const Vec3<T> omega_B = body.angular_velocity(turn.exp_inverse(Pi_stage));
       k.psi[I] = turn.dexpinv_minus(omega_B);
+      if constexpr (kOvershoots) {
+        k.too_far = k.too_far || !followed(turn, h, omega_B);
+      }
       if constexpr (!Torque::kFree) {
         const T since = h * Tableau::c[I].template as<T>();
         const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q_n, turn});
@@ -142,7 +158,8 @@ struct Coadjoint {
 
   /// h Σ_{j<I} a_Ij k_j, zero entries left out at compile time.
   template <int I, class T, int... J>
-  static Vec3<T> combined(const T& h, const Vec3<T>* k, std::integer_sequence<int, J...>) {
+  [[gnu::always_inline]] static Vec3<T> combined(const T& h, const Vec3<T>* k,
+                                                 std::integer_sequence<int, J...>) {
     Vec3<T> sum{};
     (accumulate<!Tableau::a[I][J].is_zero()>(sum, h, Tableau::a[I][J], k[J]), ...);
     return sum;
@@ -150,14 +167,16 @@ struct Coadjoint {
 
   /// h Σ b_i k_i
   template <class T, int... I>
-  static Vec3<T> weighted(const T& h, const Vec3<T>* k, std::integer_sequence<int, I...>) {
+  [[gnu::always_inline]] static Vec3<T> weighted(const T& h, const Vec3<T>* k,
+                                                 std::integer_sequence<int, I...>) {
     Vec3<T> sum{};
     (accumulate<!Tableau::b[I].is_zero()>(sum, h, Tableau::b[I], k[I]), ...);
     return sum;
   }
 
   template <bool Present, class T>
-  static void accumulate(Vec3<T>& sum, const T& h, const Fraction& weight, const Vec3<T>& k) {
+  [[gnu::always_inline]] static void accumulate(Vec3<T>& sum, const T& h, const Fraction& weight,
+                                                const Vec3<T>& k) {
     if constexpr (Present) {
       sum = sum + (h * weight.template as<T>()) * k;
     }

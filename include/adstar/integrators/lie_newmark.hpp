@@ -1,8 +1,8 @@
 #pragma once
-// Lie-Newmark: the member beta = 0, gamma = ½ of Newmark's family on SO(3), explicit in attitude and
-// torque, implicit in the angular velocity (Simo and Vu-Quoc 1988 in convected form; the "explicit
-// Newmark algorithm" that Krysl and Endres 2005, Int. J. Numer. Meth. Engng 62:2154, start from).
-// Which of theirs this is, and why: service/decisions/0008.
+// Lie-Newmark: the member beta = 0, gamma = ½ of Newmark's family on SO(3) in convected form (Simo
+// and Vu-Quoc 1988), explicit in attitude and torque, implicit in the angular velocity. Of the explicit
+// Newmark forms that Krysl and Endres (2005, Int. J. Numer. Meth. Engng 62:2154) treat, which one this
+// is and why: service/decisions/0008.
 //
 //   alpha_n     = J⁻¹ (tau_n - omega_n × J omega_n)
 //   R_{n+1}     = R_n exp(h omega_n + ½ h² alpha_n)
@@ -34,8 +34,8 @@ struct LieNewmark {
   template <class T>
   using Body = RigidBody<T>;
 
-  /// Advances `state` by h [s]. Never throws, never allocates. Newton that does not settle leaves q_IB
-  /// no number and the momentum changed by the impulse alone.
+  /// Advances `state` by h [s]. Never throws, never allocates. A turn past π, or a
+  /// Newton that does not settle, leaves q_IB no number and H_I changed by the impulse alone.
   template <class T, class Torque>
   static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque) {
     const Quat<T> q_n{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
@@ -55,7 +55,8 @@ struct LieNewmark {
     // J y + ½ h y × J y = Pi_n + ½ h (J alpha_n + tau_{n+1})
     const Vec3<T> target = Pi_n + half * (Pi_rate + end.body);
     Vec3<T> y{predicted.x, predicted.y, predicted.z};
-    const bool settled = solve(body, half, target, y);
+    constexpr double kPiSquared = 9.8696;
+    const bool settled = turn.squared_angle() <= T(kPiSquared) && solve(body, half, target, y);
 
     if constexpr (!Torque::kFree) {
       const Vec3<T> impulse_I = half * (begin.impulse_I + end.impulse_I);
