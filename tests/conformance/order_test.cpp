@@ -74,9 +74,8 @@ class OrderOf : public testing::Test {
   static constexpr int kSeconds = 2;
   /// Steps enough to be in the asymptotic range: many for Dormand and Prince, whose leading error is
   /// small beside the next; few for order eight, or nothing would be left of 113 bits.
-  static constexpr int kCoarse = Scheme::kOrder == 5              ? 2048
-                                 : test::free_order<Scheme>() > 6 ? 64
-                                                                  : 128;
+  static constexpr int kCoarse = Scheme::kOrder == 5 ? 2048 : Scheme::kOrder > 6 ? 64 : 128;
+  static constexpr int kFreeCoarse = test::free_order<Scheme>() > 8 ? 8 : kCoarse;
 
   static State<Quad> initial(const RigidBody<Quad>& body) {
     const Quat<Quad> q = normalised(Quat<Quad>{Quad(3), Quad(-1), Quad(2), Quad(1)});
@@ -135,11 +134,18 @@ TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
       SCOPED_TRACE(std::string(load.name) +
                    (diagonal_tensor ? ", diagonal tensor" : ", full tensor"));
       const PlainState exact = this->truth(J, load);
-      const Errors coarse = this->errors(J, load, exact, this->kCoarse);
-      const Errors fine = this->errors(J, load, exact, 2 * this->kCoarse);
-      EXPECT_NEAR(this->order(coarse.attitude, fine.attitude),
-                  load.torque ? kStated : test::free_order<TypeParam>(), 0.15);
-      if (!TypeParam::kClaims.exact_momentum) {
+      const int steps = load.torque ? this->kCoarse : this->kFreeCoarse;
+      const Errors coarse = this->errors(J, load, exact, steps);
+      const Errors fine = this->errors(J, load, exact, 2 * steps);
+      // Kicks alone may be a quadrature of higher order.
+      constexpr bool kSplitting = test::free_order<TypeParam>() != kStated;
+      const double order = this->order(coarse.attitude, fine.attitude);
+      if (load.torque && kSplitting) {
+        EXPECT_GT(order, kStated - 0.15);
+      } else {
+        EXPECT_NEAR(order, test::free_order<TypeParam>(), 0.15);
+      }
+      if (!TypeParam::kClaims.exact_momentum || (load.torque && kSplitting)) {
         EXPECT_GT(this->order(coarse.momentum, fine.momentum), kStated - 0.25);
       } else if (load.torque) {
         EXPECT_NEAR(this->order(coarse.momentum, fine.momentum), kStated, 0.25);
@@ -183,7 +189,7 @@ TYPED_TEST(OrderOf, is_as_stated_against_the_closed_form_of_an_axisymmetric_body
     }
     return angle_between(exact, state.q_IB);
   };
-  EXPECT_NEAR(this->order(error(this->kCoarse), error(2 * this->kCoarse)),
+  EXPECT_NEAR(this->order(error(this->kFreeCoarse), error(2 * this->kFreeCoarse)),
               test::free_order<TypeParam>(), 0.15);
 }
 
