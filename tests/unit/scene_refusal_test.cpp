@@ -140,7 +140,7 @@ TEST(SceneLoader, refuses_unknown_schemes_and_paces) {
   EXPECT_TRUE(unknown.starts_with(
       "scene.toml:3:10: simulation.scheme: got \"rk4\", expected one of coadjoint_rk4, "))
       << unknown;
-  EXPECT_TRUE(unknown.ends_with("; try \"rkmk4\"")) << unknown;
+  EXPECT_TRUE(unknown.ends_with("; try \"coadjoint_rk4\"")) << unknown;
   EXPECT_EQ(
       refusal(in_simulation("pace = \"fre\"")),
       "scene.toml:3:8: simulation.pace: got \"fre\", expected one of clock, free; try \"free\"");
