@@ -170,7 +170,8 @@ bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
 template <class Scheme, class T>
 StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
                    std::span<const Torque<T>> torques, std::int64_t t_ns, std::int64_t h_ns,
-                   const StepLimits& limits = {}) noexcept {
+                   const StepLimits& given = {}) noexcept {
+  const StepLimits limits = limits_for<Scheme>(given);
   StepReport report;
   const std::int64_t end_ns = t_ns + h_ns;
   for (std::int64_t segments = 0; t_ns < end_ns; ++segments) {
@@ -194,7 +195,7 @@ StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
     const T reach = T(Scheme::kStageReach);
     SubstepCount count;
     if (!surely_one_part(body, state.H_I.value(), impulse, length_s, reach, limits)) {
-      count = count_substeps(body, body_momentum(state), impulse, length_s, reach, limits);
+      count = count_parts<Scheme, T>(body, body_momentum(state), impulse, length_s, limits);
     }
     const bool followed =
         detail::run_segment<Scheme>(body, state, torques, segment, t_ns, length_s, count.parts);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "adstar/integrators/all.hpp"
 #include "service/report/numbers.hpp"
 
 namespace adstar::cli {
@@ -39,7 +40,7 @@ std::string Unresolved::warning(const scene::Scene& scene, std::int64_t step_ns)
           count > kNamed ? ", ..." : "", fault, report::seconds_text(first_ns_), remedy);
     }
   };
-  const StepLimits& limits = scene.simulation.limits;
+  const StepLimits limits = limits_for(scene.simulation.scheme, scene.simulation.limits);
   const std::string step = scene::format_duration(step_ns);
   say(runtime::kFlagUnresolvedAngle,
       fmt::format("turned further in {} than {} sub-steps of {} rad reach", step, limits.substeps,

@@ -15,12 +15,14 @@ namespace {
 struct SchemeFacts {
   int order = 0;
   double stage_reach = 1;
+  int leak_power = 0;
 };
 
 SchemeFacts facts_of(const std::string& scheme) {
   SchemeFacts facts;
   with_scheme(scheme, [&](auto s) {
-    facts = {decltype(s)::kOrder, static_cast<double>(decltype(s)::kStageReach)};
+    facts = {decltype(s)::kOrder, static_cast<double>(decltype(s)::kStageReach),
+             decltype(s)::kLeakPower};
   });
   return facts;
 }
@@ -45,9 +47,9 @@ std::string simulation_report(const scene::Simulation& simulation) {
 
 /// The largest turn in one step, from what the spacecraft have at the start.
 std::string turn_report(const scene::Scene& scene) {
-  const StepLimits& limits = scene.simulation.limits;
+  const StepLimits limits = limits_for(scene.simulation.scheme, scene.simulation.limits);
   const double h = seconds<double>(scene.simulation.step_ns);
-  const double reach = facts_of(scene.simulation.scheme).stage_reach;
+  const SchemeFacts facts = facts_of(scene.simulation.scheme);
   double largest = 0;
   const scene::Spacecraft* fastest = &scene.spacecraft.front();
   std::int64_t parts = 1;
@@ -60,7 +62,8 @@ std::string turn_report(const scene::Scene& scene) {
       largest = turn;
       fastest = &craft;
     }
-    const SubstepCount count = count_substeps(body, Pi_B, 0.0, h, reach, limits);
+    const SubstepCount count =
+        count_substeps(body, Pi_B, 0.0, h, facts.stage_reach, limits, facts.leak_power);
     parts = std::max(parts, count.parts);
     resolved = resolved && count.within_limit;
   }

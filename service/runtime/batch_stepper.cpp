@@ -196,9 +196,9 @@ class BatchStepper final : public Stepper {
                                  sizeof(Vehicle) / sizeof(double), packed_.data()};
     std::array<std::uint32_t, Queue::kRoom> left;
     const std::size_t count = kernels_[static_cast<std::size_t>(kind)](
-        fleet,
-        {queue.members.data(), queue.torques.data(), queue.harmonics.data(), queue.most_harmonics,
-         queue.size, step.t_s, step.h_s, step.limits.substep_angle_rad, left.data()});
+        fleet, {queue.members.data(), queue.torques.data(), queue.harmonics.data(),
+                queue.most_harmonics, queue.size, step.t_s, step.h_s,
+                limits_for<Scheme>(step.limits).substep_angle_rad, left.data()});
     queue.size = queue.most_harmonics = 0;
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < count; ++i) {

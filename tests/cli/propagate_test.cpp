@@ -122,10 +122,11 @@ TEST(Propagate, warns_of_spacecraft_that_no_sub_step_could_follow) {
   const Outcome outcome = client({"propagate", "tests/cli/scenes/too_fast.toml"});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(lines_of(outcome.out).size(), 5U);
-  EXPECT_EQ(outcome.err,
-            "adstar propagate: 1 of 2 spacecraft (top) turned further in 1s than 2 sub-steps of 1 "
-            "rad reach, first in the step to 1 s: their rows are not to be trusted; take a shorter "
-            "--step, or raise simulation.substep_limit\n");
+  EXPECT_EQ(
+      outcome.err,
+      "adstar propagate: 1 of 2 spacecraft (top) turned further in 1s than 2 sub-steps of "
+      "0.75 rad reach, first in the step to 1 s: their rows are not to be trusted; take a shorter "
+      "--step, or raise simulation.substep_limit\n");
 }
 
 TEST(Propagate, step_and_scheme_override_the_scene) {

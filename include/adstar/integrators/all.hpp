@@ -10,6 +10,7 @@
 
 #include "adstar/integrators/coadjoint.hpp"
 #include "adstar/integrators/free_exact.hpp"
+#include "adstar/integrators/guard.hpp"
 #include "adstar/integrators/lie_newmark.hpp"
 #include "adstar/integrators/moser_veselov.hpp"
 #include "adstar/integrators/quaternion.hpp"
@@ -53,6 +54,12 @@ inline Claims claims_of(std::string_view name) {
   Claims claims;
   with_scheme(name, [&](auto scheme) { claims = decltype(scheme)::kClaims; });
   return claims;
+}
+
+/// The limits as they hold for the scheme of that name.
+inline StepLimits limits_for(std::string_view name, StepLimits limits) {
+  with_scheme(name, [&](auto scheme) { limits = limits_for<decltype(scheme)>(limits); });
+  return limits;
 }
 
 }  // namespace adstar

@@ -25,7 +25,8 @@
 // would turn it by more than 2 rad in the step, which no true motion within the guard's 1 rad has,
 // makes q_IB no number, and advance() says so. The rate is the sharper sign: Pi_B is carried over by
 // the attitude of the stage, so an error of angle e leaks e|Pi| into the lightest axis, and a needle
-// spins there at e|Pi|/J_min. The guard counts with c_i ≤ 1 (tests/conformance/overshoot_test.cpp).
+// spins there at e|Pi|/J_min. The guard counts with c_i ≤ 1 (tests/conformance/overshoot_test.cpp)
+// and with the leak (guard.hpp).
 
 #include <limits>
 #include <utility>
@@ -43,6 +44,11 @@ template <class Tableau>
 struct Coadjoint {
   static constexpr int kOrder = Tableau::kOrder;
   static constexpr double kStageReach = 1;
+  static constexpr double kSubstepAngleRad = kOrder >= 8   ? 1.5
+                                             : kOrder >= 5 ? 1.25
+                                             : kOrder == 4 ? 0.75
+                                                           : 0.1;
+  static constexpr int kLeakPower = 1;  ///< stages read Pi_B through their own attitudes
   static constexpr Claims kClaims{.exact_momentum = true};
   /// step() also takes several bodies side by side.
   static constexpr bool kTakesLanes = !(stage_overshoot<Tableau>() > 1);

@@ -103,6 +103,8 @@ struct FreeExact {
   static constexpr const char* kName = "free_exact";
   static constexpr int kOrder = kExactOrder;
   static constexpr double kStageReach = 0;
+  static constexpr double kSubstepAngleRad = 1;  ///< of a reach of 0: any turn will do
+  static constexpr int kLeakPower = 0;
   static constexpr Claims kClaims{
       .exact_momentum = true, .exact_energy = true, .free_only = true, .reversible = true};
   template <class T>

@@ -9,6 +9,14 @@
 // Pair (smallest J, largest J) is always feasible; the other is (1,2) or (2,3) by the side of the
 // separatrix. A torque with ∫|tau| dt ≤ I moves P by at most I and √(2E) by at most I/√J_min (dE/dt
 // = omega·tau).
+//
+// The turn alone is not enough where a step reads Pi_B through an attitude of its own (a coadjoint
+// stage, a projected step): an attitude error e there spins the lightest axis at e·leak, leak =
+// |Pi|/J_min, which for a needle is up to 1e6 times |omega|. A part of length h is short enough when
+//   (h|omega|)^p · h·leak ≤ limit^(p+1),     p = Scheme::kLeakPower
+// with p = 1 where the leak feeds back within the step (the error then swings at the geometric mean of
+// both rates), p = the order where only the finished step's error leaks, and 0: no leak at all.
+// Limits: measured, service/decisions/0010-guard-limits.md.
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +30,20 @@ namespace adstar {
 /// Limits of one step, from the scene. Past `substeps` or `edges` the step is reported as
 /// unresolved.
 struct StepLimits {
-  double substep_angle_rad = 1.0;  ///< a part of a step may turn this far
-  std::int64_t substeps = 64;      ///< parts of one smooth segment, at most
-  std::int64_t edges = 64;         ///< torque edges inside one step, at most
+  /// A part of a step may turn this far; 0: as far as its scheme can follow (kSubstepAngleRad).
+  double substep_angle_rad = 0;
+  std::int64_t substeps = 64;  ///< parts of one smooth segment, at most
+  std::int64_t edges = 64;     ///< torque edges inside one step, at most
 };
+
+/// The limits as they hold for a scheme: its own angle where none is set.
+template <class Scheme>
+constexpr StepLimits limits_for(StepLimits limits) {
+  if (!(limits.substep_angle_rad > 0)) {
+    limits.substep_angle_rad = Scheme::kSubstepAngleRad;
+  }
+  return limits;
+}
 
 /// Upper bound of |omega_B|² [rad²/s²] over a span in which the torques' impulse is at most
 /// `impulse` [N m s].
@@ -65,24 +83,61 @@ struct SubstepCount {
   bool within_limit = true;
 };
 
+/// Whether `parts` are enough against the leak; turn and leak over the whole, in units of the limit.
+template <class T>
+bool leaks_little(const T& turn, const T& leak, int leak_power, std::int64_t parts) {
+  const T each = T(1) / T(parts);
+  T product = leak * each;
+  for (int i = 0; i < leak_power; ++i) {
+    product = product * (turn * each);
+  }
+  return product <= T(1);
+}
+
 /// Parts for a segment of length h [s]; `stage_reach` is the scheme's largest Σ_j |a_ij|, at
-/// least 1.
+/// least 1; `leak_power` as above.
 template <class T>
 SubstepCount count_substeps(const RigidBody<T>& body, const Vec3<T>& Pi_B, const T& impulse,
-                            const T& h, const T& stage_reach, const StepLimits& limits) {
-  const T reach = h * stage_reach;
-  const T limit = T(limits.substep_angle_rad);
-  const T angle_squared = reach * reach * angular_speed_bound_squared(body, Pi_B, impulse);
-  if (angle_squared <= limit * limit) {
-    return {};
-  }
+                            const T& h, const T& stage_reach, const StepLimits& limits,
+                            int leak_power = 0) {
   using std::ceil;
   using std::sqrt;
-  const T parts = ceil(sqrt(angle_squared) / limit);
-  if (!(parts <= T(limits.substeps))) {  // also NaN
+  const T limit = T(limits.substep_angle_rad);
+  const T reach = h * stage_reach;
+  const T angle_squared = reach * reach * angular_speed_bound_squared(body, Pi_B, impulse);
+  std::int64_t parts = 1;
+  if (!(angle_squared <= limit * limit)) {
+    const T wanted = ceil(sqrt(angle_squared) / limit);
+    if (!(wanted <= T(limits.substeps))) {  // also NaN
+      return {limits.substeps, false};
+    }
+    parts = static_cast<std::int64_t>(wanted);
+  }
+  if (leak_power == 0) {
+    return {parts, true};
+  }
+  const T turn = sqrt(angle_squared) / limit;
+  const T leak = reach * (sqrt(squared_norm(Pi_B)) + impulse) * body.inverse_moments()[0] / limit;
+  if (leaks_little(turn, leak, leak_power, parts)) {
+    return {parts, true};
+  }
+  if (!leaks_little(turn, leak, leak_power, limits.substeps)) {
     return {limits.substeps, false};
   }
-  return {static_cast<std::int64_t>(parts), true};
+  std::int64_t few = parts, enough = limits.substeps;  // the least that is enough, by halving
+  while (enough - few > 1) {
+    const std::int64_t middle = few + (enough - few) / 2;
+    (leaks_little(turn, leak, leak_power, middle) ? enough : few) = middle;
+  }
+  return {enough, true};
+}
+
+/// The same for a scheme, within the limits that hold for it.
+template <class Scheme, class T>
+SubstepCount count_parts(const RigidBody<T>& body, const Vec3<T>& Pi_B, const T& impulse,
+                         const T& h, const StepLimits& limits) {
+  return count_substeps(body, Pi_B, impulse, h, T(Scheme::kStageReach), limits_for<Scheme>(limits),
+                        Scheme::kLeakPower);
 }
 
 }  // namespace adstar

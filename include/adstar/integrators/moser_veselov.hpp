@@ -161,6 +161,12 @@ struct MoserVeselov {
   static_assert(Order >= 2 && Order <= 10 && Order % 2 == 0);
   static constexpr int kOrder = Order;
   static constexpr double kStageReach = Order == 2 ? 1.25 : 1;
+  static constexpr double kSubstepAngleRad = Order == 2   ? 0.075
+                                             : Order == 4 ? 0.5
+                                             : Order == 6 ? 1
+                                             : Order == 8 ? 1.25
+                                                          : 1.5;
+  static constexpr int kLeakPower = 0;  ///< the energy, which it keeps, leaves nothing to leak
   static constexpr Claims kClaims{
       .exact_momentum = true, .exact_energy = true, .free_only = true, .reversible = true};
   template <class T>

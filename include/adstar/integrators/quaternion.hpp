@@ -92,6 +92,8 @@ template <class Tableau, bool Projected>
 struct QuaternionRk {
   static constexpr int kOrder = Tableau::kOrder;
   static constexpr double kStageReach = 1;
+  static constexpr double kSubstepAngleRad = kOrder >= 8 ? 1.5 : kOrder >= 5 ? 0.75 : 0.5;
+  static constexpr int kLeakPower = Projected ? kOrder : 0;  ///< Pi_B is read through q once a step
   static constexpr Claims kClaims{.exact_momentum = Projected};
   template <class T>
   using Body = RigidBody<T>;

@@ -27,6 +27,8 @@ struct Rkmk4 {
   static constexpr const char* kName = "rkmk4";
   static constexpr int kOrder = 4;
   static constexpr double kStageReach = 1;
+  static constexpr double kSubstepAngleRad = 0.5;
+  static constexpr int kLeakPower = 0;
   static constexpr Claims kClaims{};
   template <class T>
   using Body = RigidBody<T>;

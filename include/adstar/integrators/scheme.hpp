@@ -1,6 +1,7 @@
 #pragma once
 // What every scheme says of itself. A scheme is a type with
 //   kName, kOrder, kStageReach (how far, in steps, a stage may reach; 0: any turn will do), kClaims,
+//   kSubstepAngleRad (how far a part may turn where a scene sets no limit), kLeakPower (guard.hpp),
 //   Body<T>: the rigid body with whatever the scheme prepares once for it, made from a RigidBody<T>,
 //   step(body, state, h, torque): one step of h [s]; never throws, never allocates. A step that cannot
 //     follow the motion leaves q_IB no number; advance() keeps the attitude before it and says so.

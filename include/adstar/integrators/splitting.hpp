@@ -34,6 +34,8 @@ struct Splitting {
   static constexpr int kOrder = Composition::kOrder;
   static constexpr int kFreeOrder = FreeScheme::kOrder;  ///< without torque
   static constexpr double kStageReach = FreeScheme::kStageReach;
+  static constexpr double kSubstepAngleRad = FreeScheme::kSubstepAngleRad;
+  static constexpr int kLeakPower = FreeScheme::kLeakPower;
   static constexpr Claims kClaims{.exact_momentum = true,
                                   .exact_energy = FreeScheme::kClaims.exact_energy,
                                   .reversible = FreeScheme::kClaims.reversible};
