@@ -21,6 +21,7 @@
 #include "service/trade/front.hpp"
 #include "service/trade/grid.hpp"
 #include "service/trade/present.hpp"
+#include "service/trade/stability_map.hpp"
 
 namespace adstar::cli {
 namespace {
@@ -34,6 +35,7 @@ struct Options {
   std::vector<std::string> schemes, steps;
   std::string format = "table";
   std::string svg;
+  bool map = false;
 };
 
 /// Of a fleet, a few drawn evenly: errors and cost are a spacecraft's.
@@ -122,7 +124,58 @@ std::string answer(const trade::Trade& trade, double accuracy_rad,
       scene::format_duration(point.step_ns), point.scheme);
 }
 
+/// Runs it under a progress bar; Ctrl-C ends it.
+template <class Run>
+auto with_progress(const Run& run) {
+  constexpr std::uint64_t kParts = 1000;
+  catch_stop_signals();
+  ProgressBar bar(kParts);
+  try {
+    return run([&](double done) {
+      bar.show(static_cast<std::uint64_t>(done * static_cast<double>(kParts)));
+      return !stop_requested();
+    });
+  } catch (const trade::Interrupted&) {
+    throw Failure(kFailed, "interrupted; nothing was written");
+  }
+}
+
+void write_file(const std::string& file, const std::string& text) {
+  Output output = Output::to_file(file);
+  output.buffer() = text;
+  output.commit();
+}
+
+int draw_map(const Options& options) {
+  std::vector<std::string> schemes = options.schemes;
+  if (schemes.empty()) {
+    for (const std::string_view name : scheme_names()) {
+      schemes.emplace_back(name);
+    }
+  }
+  for (const std::string& name : schemes) {
+    require_scheme(name, "--schemes", scene::Scene{});
+  }
+  const trade::StabilityMap map = with_progress([&](const trade::Progress& progress) {
+    return trade::map_stability(schemes, trade::default_turns(), progress);
+  });
+  if (!options.svg.empty()) {
+    write_file(options.svg, trade::picture(map));
+  }
+  Output output = Output::to_stdout();
+  output.buffer() = options.format == "json" ? trade::json(map) : trade::table(map);
+  output.commit();
+  return kDone;
+}
+
 int trade_off(const Options& options) {
+  if (options.map) {
+    return draw_map(options);
+  }
+  if (options.scene.empty()) {
+    throw Failure(kUsage,
+                  "a scene is missing; name one, or --map for the stability of all schemes");
+  }
   std::optional<double> accuracy_rad;
   if (!options.accuracy.empty()) {
     accuracy_rad = parse_angle(options.accuracy);
@@ -144,23 +197,10 @@ int trade_off(const Options& options) {
   campaign.schemes = schemes_of(scene, options);
   campaign.steps_ns = steps_of(scene, options, campaign.horizon_ns);
   campaign.accuracy_rad = accuracy_rad;
-  catch_stop_signals();
-  const trade::Trade trade = [&] {
-    constexpr std::uint64_t kParts = 1000;
-    ProgressBar bar(kParts);
-    try {
-      return trade::run(scene, campaign, [&](double done) {
-        bar.show(static_cast<std::uint64_t>(done * static_cast<double>(kParts)));
-        return !stop_requested();
-      });
-    } catch (const trade::Interrupted&) {
-      throw Failure(kFailed, "interrupted; nothing was written");
-    }
-  }();
+  const trade::Trade trade = with_progress(
+      [&](const trade::Progress& progress) { return trade::run(scene, campaign, progress); });
   if (!options.svg.empty()) {
-    Output picture = Output::to_file(options.svg);
-    picture.buffer() = trade::picture(trade, options.scene);
-    picture.commit();
+    write_file(options.svg, trade::picture(trade, options.scene));
   }
   Output output = Output::to_stdout();
   output.buffer() =
@@ -179,7 +219,9 @@ Verb add_trade(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* verb = program.add_subcommand(
       "trade", "Measure accuracy against cost: the scene under every scheme and many steps");
-  add_scene(*verb, options->scene);
+  add_scene(*verb, options->scene)->required(false);
+  verb->add_flag("--map", options->map,
+                 "No scene: one step of every scheme at the extremes, and who is wrong there");
   add_duration(*verb, "--horizon", options->horizon_ns,
                "How long the accuracy shall hold (default: the scene's duration, or 100s)");
   verb->add_option("--accuracy", options->accuracy,

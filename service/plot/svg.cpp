@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "service/plot/escape.hpp"
 #include "service/plot/plot.hpp"
 #include "service/plot/ticks.hpp"
 
@@ -20,14 +21,6 @@ constexpr double kLeft = 92, kRight = 250, kTop = 40, kBottom = 62;  // around t
 /// first.
 constexpr std::array<const char*, 8> kColours = {"#000000", "#e69f00", "#56b4e9", "#009e73",
                                                  "#b8a800", "#0072b2", "#d55e00", "#cc79a7"};
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
-  return safe;
-}
 
 struct Style {
   std::size_t number = 0;

@@ -88,6 +88,8 @@ TEST(TradeVerb, refuses_what_it_cannot_do_and_says_what_it_could) {
       {"propagate", "configs/scenes/paper_forced.toml", "--duration", "1s", "--scheme",
        "free_exact"},
       {"check", "tests/cli/scenes/free_only.toml"},
+      {"trade"},
+      {"trade", "--map", "--schemes", "coadjoint_rk5"},
       {"reproduce", "papers"},
       {"reproduce", "paper", "--step", "3s", "--duration", "10s"}};
   for (const auto& arguments : wrong) {

@@ -14,6 +14,7 @@
 #include "service/trade/campaign.hpp"
 #include "service/trade/front.hpp"
 #include "service/trade/grid.hpp"
+#include "service/trade/stability_map.hpp"
 #include "service/trade/truth.hpp"
 
 namespace adstar::trade {
@@ -158,6 +159,40 @@ TEST(Trade, offers_no_free_only_scheme_to_a_scene_with_torque) {
   for (const std::string& name : forced) {
     EXPECT_FALSE(claims_of(name).free_only) << name;
   }
+}
+
+TEST(Standing, of_a_step_is_by_its_error_unless_it_was_reported) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(judge(1e-15, 1e-6, false), Standing::exact);
+  EXPECT_EQ(judge(1e-8, 1e-4, false), Standing::accurate);
+  EXPECT_EQ(judge(1e-2, 1.0, false), Standing::bounded);
+  EXPECT_EQ(judge(0.2, 1.0, false), Standing::wrong);
+  EXPECT_EQ(judge(nan, 1.0, false), Standing::wrong);
+  EXPECT_EQ(judge(nan, 1.0, true), Standing::reported);
+  EXPECT_EQ(judge(0.0, 1.0, true), Standing::reported);
+}
+
+TEST(StabilityMap, finds_nobody_wrong_in_silence_up_to_five_radians_a_step) {
+  std::vector<std::string> schemes;
+  for (const std::string_view name : scheme_names()) {
+    schemes.emplace_back(name);
+  }
+  const StabilityMap map = map_stability(schemes, {1e-9, 1e-3, 0.1, 1, 5}, kGoOn);
+  ASSERT_EQ(map.cells.size(), 5 * schemes.size());
+  for (const MapCell& cell : map.cells) {
+    EXPECT_NE(cell.worst(), Standing::wrong)
+        << cell.scheme << " at " << cell.turn_rad << " rad: " << cell.worst_case;
+    EXPECT_GT(cell.starts(), 0);
+  }
+}
+
+TEST(StabilityMap, sees_the_closed_form_at_round_off_and_a_coarse_step_above_it) {
+  const StabilityMap map = map_stability({"free_exact", "coadjoint_midpoint2"}, {0.03}, kGoOn);
+  EXPECT_EQ(map.cells[0].worst(), Standing::exact);
+  EXPECT_GT(map.cells[1].worst_rad, 1e-7);
+  EXPECT_NE(map.cells[1].worst_case, "");
+  EXPECT_NE(table(map).find("coadjoint_midpoint2"), std::string::npos);
+  EXPECT_NE(picture(map).find("wrong in silence"), std::string::npos);
 }
 
 TEST(Ticks, rule_an_axis_evenly_or_by_decades) {
