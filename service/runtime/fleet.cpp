@@ -65,14 +65,14 @@ std::optional<batch::InstructionSet> chosen(Lanewise lanewise, std::string_view 
 
 std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::string_view scheme,
                                       Lanewise lanewise) {
+  if (const auto set = chosen(lanewise, scheme, vehicles.size())) {
+    return make_batch_stepper(vehicles, scheme, *set);
+  }
   std::unique_ptr<Stepper> stepper;
   if (!with_scheme(scheme, [&](auto s) {
         stepper = std::make_unique<SchemeStepper<decltype(s)>>(vehicles);
       })) {
     throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
-  }
-  if (const auto set = chosen(lanewise, scheme, vehicles.size())) {
-    return make_batch_stepper(vehicles, scheme, *set);
   }
   return stepper;
 }

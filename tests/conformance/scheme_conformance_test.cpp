@@ -100,7 +100,11 @@ TYPED_TEST(SchemeOf, delivers_a_constant_inertial_torque_exactly) {
     GTEST_SKIP() << "claims no exact momentum, or knows no torque";
   }
   State<double> state = this->start;
-  const TorqueSample<double> tau{{}, {0.25 / 64, -0.5 / 64, 0.125 / 64}};
+  // Spun up to turns of radians a step; schemes that refuse such turns get less.
+  constexpr bool kTakesAnyTurn = requires { TypeParam::kTakesLanes; }
+  &&TypeParam::kOrder <= 4;
+  constexpr double kShare = kTakesAnyTurn ? 1 : 1. / 64;
+  const TorqueSample<double> tau{{}, {kShare * 0.25, kShare * -0.5, kShare * 0.125}};
   const double h = 1.0 / 128;
   for (int n = 0; n < 100'000; ++n) {
     TypeParam::step(this->body, state, h, mixed_torque([&](const Stage<double>&) { return tau; }));
@@ -194,7 +198,11 @@ TYPED_TEST(SchemeOf, asks_for_the_torque_once_a_stage_and_within_the_step) {
                   }));
   EXPECT_GE(asked, 1);
   EXPECT_LE(asked, 4 * TypeParam::kOrder);
-  EXPECT_GE(earliest, 0.0);
+  if (test::free_order<TypeParam>() == TypeParam::kOrder) {
+    EXPECT_EQ(earliest, 0.0);
+  } else {  // a splitting drifts before it kicks
+    EXPECT_GT(earliest, 0.0);
+  }
   EXPECT_LE(latest, 0.5);
   EXPECT_GT(latest, 0.0);
 }
