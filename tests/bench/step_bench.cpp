@@ -67,17 +67,6 @@ void scheme_alone(benchmark::State& bench, const Motion& motion) {
   }
 }
 
-/// The closed form, 100 s in one step.
-void one_shot(benchmark::State& bench, const Motion& motion) {
-  const BodyOf<FreeExact, double> body{RigidBody<double>(motion.J)};
-  const State<double> begin = start(motion, body);
-  for (auto _ : bench) {
-    State<double> state = begin;
-    FreeExact::step(body, state, 100.0, NoTorque{});
-    benchmark::DoNotOptimize(state);
-  }
-}
-
 std::vector<Motion> motions() {
   const Eigen::Matrix3d diagonal = Eigen::Vector3d(0.9144, 1.098, 1.66).asDiagonal();
   const Eigen::Matrix3d full =
@@ -110,7 +99,6 @@ int main(int argc, char** argv) {
   }
   benchmark::RegisterBenchmark("scheme_alone/free", scheme_alone, kMotions[0]);
   benchmark::RegisterBenchmark("scheme_alone/free/full_tensor", scheme_alone, kMotions[1]);
-  benchmark::RegisterBenchmark("free_exact/one_shot", one_shot, kMotions[0]);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 2;
