@@ -1,7 +1,7 @@
 #pragma once
 // One step of one spacecraft: the step is split where a torque has an edge, each smooth segment is
-// split until the scheme can follow the turn (guard.hpp), and each part takes the cheapest form of
-// the scheme's step: free, constant in the body, or the general one.
+// split until the scheme can follow the motion (guard.hpp), and each part takes the cheapest form of
+// the scheme's step: free, constant in the body, of time and attitude, or of the rate too.
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +21,16 @@ namespace adstar {
 /// What a step has to say. Unresolved: the result is not to be trusted to the scheme's order.
 struct StepReport {
   std::int64_t parts = 0;         ///< steps of the scheme that were taken
-  bool unresolved_angle = false;  ///< turned too far for the sub-step limit
+  bool unresolved_angle = false;  ///< the sub-step limit does not let it follow the turn
   bool unresolved_edges =
       false;  ///< more torque edges than the edge limit; those past it fell inside a segment
+  bool unresolved_damping = false;  ///< too stiff for the sub-step limit
 
-  bool resolved() const { return !unresolved_angle && !unresolved_edges; }
+  /// What unresolved_angle speaks of where it is not the turn alone: errors that leak into the lightest
+  /// axis, or grow beside the separatrix, or an attitude that the scheme did not find within its limits.
+  bool at_light_axis = false, at_separatrix = false, attitude_lost = false;
+
+  bool resolved() const { return !unresolved_angle && !unresolved_edges && !unresolved_damping; }
 };
 
 namespace detail {
@@ -37,7 +42,14 @@ struct Segment {
   bool varying = false;           ///< some model is to be asked at every stage
   bool varying_inertial = false;  ///< and one of those in I
   T varying_bound{};              ///< of the norm of those [N m]
+  bool damped = false;            ///< some model looks at omega_B
+  Vec3<T> damping;                ///< -∂tau_B/∂omega_B per body axis, summed [N m s/rad]
 };
+
+template <class T>
+bool is_zero(const Vec3<T>& v) {
+  return v == Vec3<T>{};
+}
 
 template <class T>
 void add_to(Ramp<T>& sum, const Ramp<T>& term) {
@@ -54,6 +66,9 @@ Segment<T> make_segment(std::span<const Torque<T>> torques, std::int64_t t_ns) {
           if constexpr (requires { model.ramp_from(t_ns); }) {
             add_to(model.frame == Frame::body ? segment.body : segment.inertial,
                    model.ramp_from(t_ns));
+          } else if constexpr (requires { model.damping(); }) {
+            segment.damping = segment.damping + model.damping();
+            segment.damped = segment.damped || !is_zero(model.damping());
           } else {
             segment.varying = true;
             segment.varying_inertial = segment.varying_inertial || model.frame == Frame::inertial;
@@ -80,11 +95,6 @@ void add_varying(TorqueSample<T>& sum, std::span<const Torque<T>> torques, const
   }
 }
 
-template <class T>
-bool is_zero(const Vec3<T>& v) {
-  return v == Vec3<T>{};
-}
-
 /// |x| + |y| + |z|: a bound of the norm that needs no root.
 template <class T>
 T sum_of_magnitudes(const Vec3<T>& v) {
@@ -99,6 +109,19 @@ T impulse_bound(const Segment<T>& s, const T& length_s) {
     return sum_of_magnitudes(ramp.start) + length_s * sum_of_magnitudes(ramp.slope);
   };
   return length_s * (largest(s.body) + largest(s.inertial) + s.varying_bound);
+}
+
+/// ∫|tau| dt of the damping, at most, beside other torques of `impulse`: |omega|² ≤ 2E/J_min, and damping
+/// takes E down; nor can it change the momentum by more than the most that E allows, back and forth.
+template <class T>
+T damping_impulse_bound(const RigidBody<T>& body, const Segment<T>& s, const Vec3<T>& Pi_B,
+                        const T& impulse, const T& length_s) {
+  using std::sqrt;
+  const T root = sqrt(T(2) * body.energy(Pi_B)) + impulse * sqrt(body.inverse_moments()[0]);
+  const T largest = std::max(std::max(s.damping.x, s.damping.y), s.damping.z);
+  const T by_rate = length_s * largest * root * sqrt(body.inverse_moments()[0]);
+  const T by_energy = T(2) * root / sqrt(body.inverse_moments()[2]);
+  return by_rate > by_energy ? by_energy : by_rate;
 }
 
 /// One step of the scheme; false when it could not follow the motion into a unit quaternion: then the
@@ -116,6 +139,50 @@ template <class Scheme, class T, class StepTorque>
   return false;
 }
 
+/// All that does not look at omega_B, `since` the segment's beginning at t_s.
+template <class T>
+[[gnu::always_inline]] inline TorqueSample<T> torque_at(const Segment<T>& segment,
+                                                        std::span<const Torque<T>> torques,
+                                                        const T& t_s, const T& since) {
+  TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
+                      segment.inertial.start + since * segment.inertial.slope};
+  if (segment.varying) {
+    add_varying(tau, torques, t_s + since);
+  }
+  return tau;
+}
+
+/// A scheme of many stages: each form of its step takes long to compile, and what a special form saves is
+/// little beside its stages, so it has the free one, the one of body torques, and the general one.
+template <class Scheme>
+constexpr bool has_many_stages() {
+  constexpr bool kSplitting = requires { Scheme::kFreeOrder; };
+  return Scheme::kOrder > 4 && !kSplitting;
+}
+
+/// run_segment() in the general form: any torque, one that looks at omega_B too. Out of line: a scene
+/// without damping does not pay for it.
+template <class Scheme, class T>
+[[gnu::noinline]] bool run_general(const BodyOf<Scheme, T>& body, State<T>& state,
+                                   std::span<const Torque<T>> torques, const Segment<T>& segment,
+                                   std::int64_t t_ns, const T& length_s, std::int64_t parts) {
+  const T h = length_s / T(parts);
+  const T t_s = seconds<T>(t_ns);
+  bool all = true;
+  for (std::int64_t i = 0; i < parts; ++i) {
+    const T begun = T(i) * h;
+    all = follow<Scheme>(
+              body, state, h, mixed_torque([&](const Stage<T>& stage) {
+                TorqueSample<T> tau = torque_at(segment, torques, t_s, begun + stage.time_s);
+                const Vec3<T>&c = segment.damping, &omega = stage.omega_B;
+                tau.body = tau.body - Vec3<T>{c.x * omega.x, c.y * omega.y, c.z * omega.z};
+                return tau;
+              })) &&
+          all;
+  }
+  return all;
+}
+
 /// `parts` equal steps of the scheme over a segment beginning at t_ns; true when all were followed.
 template <class Scheme, class T>
 bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const Torque<T>> torques,
@@ -124,42 +191,65 @@ bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
   const T h = length_s / T(parts);
   const bool inertial = !is_zero(segment.inertial.start) || !is_zero(segment.inertial.slope);
   const bool level = is_zero(segment.body.slope) && is_zero(segment.inertial.slope);
+  const bool constant = !segment.varying && !inertial && level;
+  const bool body_only = !inertial && !segment.varying_inertial;
   bool all = true;
-  if (!segment.varying && !inertial && level) {
-    if (is_zero(segment.body.start)) {
-      for (std::int64_t i = 0; i < parts; ++i) {
-        all = follow<Scheme>(body, state, h, NoTorque{}) && all;
-      }
-      return all;
-    }
+  if (segment.damped || (has_many_stages<Scheme>() && !body_only)) {
+    return run_general<Scheme>(body, state, torques, segment, t_ns, length_s, parts);
+  }
+  if (constant && is_zero(segment.body.start)) {
     for (std::int64_t i = 0; i < parts; ++i) {
-      all = follow<Scheme>(body, state, h,
-                           rateless_body_torque([x = segment.body.start.x, y = segment.body.start.y,
-                                                 z = segment.body.start.z](const Stage<T>&) {
-                             return TorqueSample<T>{{x, y, z}, {}};
-                           })) &&
-            all;
+      all = follow<Scheme>(body, state, h, NoTorque{}) && all;
     }
     return all;
   }
-  const T t_s = seconds<T>(t_ns);
-  const auto at = [&](const T& since) {
-    TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
-                        segment.inertial.start + since * segment.inertial.slope};
-    if (segment.varying) {
-      add_varying(tau, torques, t_s + since);
+  if constexpr (!has_many_stages<Scheme>()) {
+    if (constant) {
+      const auto torque = [x = segment.body.start.x, y = segment.body.start.y,
+                           z = segment.body.start.z](const Stage<T>&) {
+        return TorqueSample<T>{{x, y, z}, {}};
+      };
+      for (std::int64_t i = 0; i < parts; ++i) {
+        all = follow<Scheme>(body, state, h, rateless_body_torque(torque)) && all;
+      }
+      return all;
     }
-    return tau;
-  };
-  const bool body_only = !inertial && !segment.varying_inertial;
+  }
+  const T t_s = seconds<T>(t_ns);
   for (std::int64_t i = 0; i < parts; ++i) {
     const T begun = T(i) * h;
-    const auto torque = [&](const Stage<T>& stage) { return at(begun + stage.time_s); };
-    all = (body_only ? follow<Scheme>(body, state, h, rateless_body_torque(torque))
-                     : follow<Scheme>(body, state, h, rateless_mixed_torque(torque))) &&
-          all;
+    const auto torque = [&](const Stage<T>& stage) {
+      return torque_at(segment, torques, t_s, begun + stage.time_s);
+    };
+    if constexpr (!has_many_stages<Scheme>()) {
+      if (!body_only) {
+        all = follow<Scheme>(body, state, h, rateless_mixed_torque(torque)) && all;
+        continue;
+      }
+    }
+    all = follow<Scheme>(body, state, h, rateless_body_torque(torque)) && all;
   }
   return all;
+}
+
+template <class Scheme, class T>
+[[gnu::noinline]] SubstepCount count_damped_parts(const BodyOf<Scheme, T>& body,
+                                                  const State<T>& state, const Segment<T>& segment,
+                                                  const T& impulse, const T& length_s,
+                                                  const StepLimits& limits) {
+  const Vec3<T> Pi_B = body_momentum(state);
+  const T all = impulse + damping_impulse_bound(body, segment, Pi_B, impulse, length_s);
+  return count_parts<Scheme, T>(body, Pi_B, all, length_s, limits,
+                                decay_rate(body, segment.damping));
+}
+
+inline void note(StepReport& report, const SubstepCount& count, bool followed) noexcept {
+  const bool stiff = count.obstacle == Obstacle::damping;
+  report.unresolved_damping = report.unresolved_damping || stiff;
+  report.unresolved_angle = report.unresolved_angle || !stiff || !followed;
+  report.at_light_axis = report.at_light_axis || count.obstacle == Obstacle::light_axis;
+  report.at_separatrix = report.at_separatrix || count.obstacle == Obstacle::separatrix;
+  report.attitude_lost = report.attitude_lost || (!followed && count.within_limit);
 }
 
 }  // namespace detail
@@ -194,13 +284,19 @@ StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
     const T impulse = detail::impulse_bound(segment, length_s);
     const T reach = T(Scheme::kStageReach);
     SubstepCount count;
-    if (!surely_one_part(body, state.H_I.value(), impulse, length_s, reach, limits)) {
+    if (segment.damped) {
+      count =
+          detail::count_damped_parts<Scheme, T>(body, state, segment, impulse, length_s, limits);
+    } else if ((push_limit_of<Scheme>() > 0 && impulse > T(0)) ||
+               !surely_one_part(body, state.H_I.value(), impulse, length_s, reach, limits)) {
       count = count_parts<Scheme, T>(body, body_momentum(state), impulse, length_s, limits);
     }
     const bool followed =
         detail::run_segment<Scheme>(body, state, torques, segment, t_ns, length_s, count.parts);
     report.parts += count.parts;
-    report.unresolved_angle = report.unresolved_angle || !count.within_limit || !followed;
+    if (!count.within_limit || !followed) [[unlikely]] {
+      detail::note(report, count, followed);
+    }
     t_ns = next_ns;
   }
   return report;

@@ -31,15 +31,27 @@ struct Options {
 constexpr std::int64_t kDefaultTimeout_ns = 1'000'000'000;
 constexpr std::size_t kShown = 20;
 
+const char* state_text(adstar_ServiceState state) {
+  switch (state) {
+    case adstar_SERVICE_RUNNING:
+      return "running";
+    case adstar_SERVICE_STOPPED:
+      return "stopped";
+    case adstar_SERVICE_HALTED:
+      return "HALTED (a beat was over its budget; see its log)";
+  }
+  return "in a state that this program does not know";
+}
+
 std::string status_lines(const adstar_ServiceStatus& status) {
   std::string text = fmt::format(
       "{}, step {} ({} s), step of {}, {}, pace {}\n"
       "  commands: {} received, {} refused, {} lost; worst momentum residual {:.1e} of |H|\n",
-      status.state == adstar_SERVICE_RUNNING ? "running" : "stopped", report::counted(status.step),
-      report::seconds_text(status.time_ns), scene::format_duration(status.step_length_ns),
-      dds::text_of(status.scheme), dds::text_of(status.pace),
-      report::counted(status.commands_received), report::counted(status.commands_refused),
-      report::counted(status.commands_lost), status.worst_momentum_residual_relative);
+      state_text(status.state), report::counted(status.step), report::seconds_text(status.time_ns),
+      scene::format_duration(status.step_length_ns), dds::text_of(status.scheme),
+      dds::text_of(status.pace), report::counted(status.commands_received),
+      report::counted(status.commands_refused), report::counted(status.commands_lost),
+      status.worst_momentum_residual_relative);
   if (status.unresolved_spacecraft > 0) {
     text += fmt::format("  WARNING: {} spacecraft turn too fast for their step; see its log\n",
                         report::counted(status.unresolved_spacecraft));

@@ -58,7 +58,8 @@ std::string state_of(const Row& row, double age_s) {
   if ((row.flags & adstar_FLAG_FINAL) != 0) {
     return "  ended";
   }
-  if ((row.flags & (adstar_FLAG_UNRESOLVED_ANGLE | adstar_FLAG_UNRESOLVED_EDGES)) != 0) {
+  if ((row.flags & (adstar_FLAG_UNRESOLVED_ANGLE | adstar_FLAG_UNRESOLVED_EDGES |
+                    adstar_FLAG_UNRESOLVED_DAMPING)) != 0) {
     return "  UNRESOLVED";
   }
   constexpr double kStale_s = 3;

@@ -77,7 +77,7 @@ std::vector<std::int64_t> steps_of(const scene::Scene& scene, const Options& opt
   }
   if (steps.empty()) {
     throw Failure(kUsage, fmt::format("no step of round digits divides {} and turns the fastest "
-                                      "spacecraft by 3 mrad to 3 rad; try another --horizon, for "
+                                      "spacecraft by 3 mrad to 6 rad; try another --horizon, for "
                                       "example 100s, or --steps",
                                       scene::format_duration(instants.front())));
   }
@@ -157,7 +157,7 @@ int draw_map(const Options& options) {
     require_scheme(name, "--schemes", scene::Scene{});
   }
   const trade::StabilityMap map = with_progress([&](const trade::Progress& progress) {
-    return trade::map_stability(schemes, trade::default_turns(), progress);
+    return trade::map_stability(schemes, trade::all_extremes(trade::Detail::full), progress);
   });
   if (!options.svg.empty()) {
     write_file(options.svg, trade::picture(map));

@@ -40,11 +40,25 @@ std::string Unresolved::warning(const scene::Scene& scene, std::int64_t step_ns)
           count > kNamed ? ", ..." : "", fault, report::seconds_text(first_ns_), remedy);
     }
   };
+  // What it takes beside the turn, where that is what some had too much of.
+  const auto reach = [&] {
+    std::uint32_t flags = 0;
+    for (const std::uint32_t each : flags_) {
+      flags |= each;
+    }
+    return (flags & runtime::kFlagSeparatrix) != 0
+               ? "follow beside the separatrix, where errors grow"
+           : (flags & runtime::kFlagLightAxis) != 0 ? "follow while an axis is so light"
+                                                    : "reach";
+  };
   const StepLimits limits = limits_for(scene.simulation.scheme, scene.simulation.limits);
   const std::string step = scene::format_duration(step_ns);
   say(runtime::kFlagUnresolvedAngle,
-      fmt::format("turned further in {} than {} sub-steps of {} rad reach", step, limits.substeps,
-                  report::short_number(limits.substep_angle_rad)),
+      fmt::format("turned further in {} than {} sub-steps of {} rad {}", step, limits.substeps,
+                  report::short_number(limits.substep_angle_rad), reach()),
+      "take a shorter --step, or raise simulation.substep_limit");
+  say(runtime::kFlagUnresolvedDamping,
+      fmt::format("are damped too stiffly for {} sub-steps in {}", limits.substeps, step),
       "take a shorter --step, or raise simulation.substep_limit");
   say(runtime::kFlagUnresolvedEdges,
       fmt::format("met more than {} torque edges in one step of {}", limits.edges, step),

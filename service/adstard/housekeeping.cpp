@@ -19,6 +19,16 @@ std::uint64_t growth(std::uint64_t now, std::uint64_t& seen) {
 
 double microseconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-3; }
 
+constexpr const char* kPhaseNames[runtime::kPhases] = {"wake-up lateness", "commands", "the step",
+                                                       "the hand-over"};
+
+void log_quantiles(const char* name, const runtime::QuantilesRecord& q) {
+  if (q.count > 0) {
+    spdlog::info("{} p50 {:.1f} us, p99.9 {:.1f} us, max {:.1f} us", name, microseconds(q.p50_ns),
+                 microseconds(q.p99_9_ns), microseconds(q.max_ns));
+  }
+}
+
 }  // namespace
 
 Housekeeping::Housekeeping(const scene::Scene& scene, const runtime::Tick& tick,
@@ -26,11 +36,22 @@ Housekeeping::Housekeeping(const scene::Scene& scene, const runtime::Tick& tick,
     : scene_(scene), tick_(tick), segment_(segment) {}
 
 void Housekeeping::look(std::uint64_t bridge_restarts, bool stopped) {
+  segment_->status.write(status(bridge_restarts, stopped));
+  const runtime::TimingRecord now = timing();
+  segment_->timing.write(now);
+  runtime::wake_bridge(*segment_);
+  log_changes(now);
+}
+
+runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, bool stopped) const {
   const runtime::TickReport& report = tick_.report();
   runtime::StatusRecord status;
   status.step = read(report.step);
   status.time_ns = static_cast<std::int64_t>(status.step) * scene_.simulation.step_ns;
-  status.stopped = stopped ? 1 : 0;
+  const runtime::RunState state = stopped                     ? runtime::RunState::stopped
+                                  : report.halted.load() != 0 ? runtime::RunState::halted
+                                                              : runtime::RunState::running;
+  status.state = static_cast<std::uint64_t>(state);
   status.unresolved_spacecraft = read(report.unresolved_spacecraft);
   status.worst_momentum_residual_relative =
       report.worst_momentum_residual_relative.load(std::memory_order_relaxed);
@@ -40,25 +61,42 @@ void Housekeeping::look(std::uint64_t bridge_restarts, bool stopped) {
   status.verdicts_lost = read(report.verdicts_lost);
   status.telemetry_lost = read(report.telemetry_lost);
   status.bridge_restarts = bridge_restarts;
-  segment_->status.write(status);
-
-  runtime::TimingRecord timing;
-  timing.step = status.step;
-  timing.time_ns = status.time_ns;
-  timing.wake_up_lateness = report.wake_up_lateness.quantiles();
-  timing.tick_body = report.tick_body.quantiles();
-  timing.late_beats = read(report.late_beats);
-  timing.overruns = read(report.overruns);
-  timing.missed_beats = read(report.missed_beats);
-  timing.fifo_scheduling = real_time_.fifo_scheduling ? 1 : 0;
-  timing.memory_locked = real_time_.memory_locked ? 1 : 0;
-  timing.cpu_pinned = real_time_.cpu_pinned ? 1 : 0;
-  segment_->timing.write(timing);
-  runtime::wake_bridge(*segment_);
-  log_changes();
+  return status;
 }
 
-void Housekeeping::log_changes() {
+runtime::TimingRecord Housekeeping::timing() const {
+  const runtime::TickReport& report = tick_.report();
+  runtime::TimingRecord timing;
+  timing.step = read(report.step);
+  timing.time_ns = static_cast<std::int64_t>(timing.step) * scene_.simulation.step_ns;
+  const scene::Budget& budget = scene_.budget;
+  const std::int64_t budgets[runtime::kPhases] = {budget.wake_up_ns, budget.commands_ns,
+                                                  budget.step_ns, budget.hand_over_ns};
+  for (std::size_t i = 0; i < runtime::kPhases; ++i) {
+    timing.phases[i] = {report.phases[i].quantiles(), budgets[i], read(report.over_budget[i])};
+  }
+  timing.tick_body = report.tick_body.quantiles();
+  timing.late_beats = read(report.late_beats);
+  timing.late_after_work = read(report.late_after_work);
+  timing.late_after_sleep = read(report.late_after_sleep);
+  timing.overruns = read(report.overruns);
+  timing.missed_beats = read(report.missed_beats);
+  timing.caught_up_beats = read(report.caught_up_beats);
+  timing.behind_ns = report.behind_ns.load(std::memory_order_relaxed);
+  const runtime::ThreadAccount now = runtime::account_of(thread_);
+  timing.account = {now.minor_faults - at_start_.minor_faults,
+                    now.major_faults - at_start_.major_faults,
+                    now.involuntary_switches - at_start_.involuntary_switches,
+                    read(report.most_commands),
+                    read(report.most_verdicts),
+                    read(report.most_telemetry)};
+  timing.fifo_scheduling = now.fifo_scheduling ? 1 : 0;
+  timing.memory_locked = now.memory_locked ? 1 : 0;
+  timing.cpu_pinned = now.cpu_pinned ? 1 : 0;
+  return timing;
+}
+
+void Housekeeping::log_changes(const runtime::TimingRecord& now) {
   const runtime::TickReport& report = tick_.report();
   const std::uint64_t unresolved = read(report.unresolved_spacecraft);
   if (unresolved != unresolved_seen_) {
@@ -75,8 +113,10 @@ void Housekeeping::log_changes() {
     }
     unresolved_seen_ = unresolved;
   }
+  log_budget(now);
   if (const auto n = growth(read(report.missed_beats), missed_seen_); n > 0) {
-    spdlog::warn("{} beats missed: simulation time has fallen behind the wall by as much", n);
+    spdlog::warn("{} beats missed: simulation time has fallen {} behind the wall", n,
+                 scene::format_duration(report.behind_ns.load(std::memory_order_relaxed)));
   }
   if (const auto n = growth(read(report.overruns), overruns_seen_); n > 0) {
     spdlog::warn("{} beats took longer than their period; take a longer step or fewer spacecraft",
@@ -94,6 +134,26 @@ void Housekeeping::log_changes() {
   }
 }
 
+void Housekeeping::log_budget(const runtime::TimingRecord& now) {
+  const runtime::TickReport& report = tick_.report();
+  for (std::size_t i = 0; i < runtime::kPhases; ++i) {
+    if (const auto n = growth(read(report.over_budget[i]), over_budget_seen_[i]); n > 0) {
+      spdlog::warn("{} beats over the budget of {}: {} allowed, {:.1f} us at most so far", n,
+                   kPhaseNames[i], scene::format_duration(now.phases[i].budget_ns),
+                   microseconds(now.phases[i].took.max_ns));
+    }
+  }
+  if (const std::uint32_t halted = report.halted.load(std::memory_order_acquire);
+      halted != 0 && !halt_said_) {
+    halt_said_ = true;
+    spdlog::error(
+        "halted before step {}: {} took {:.1f} us; telemetry is still served, commands are "
+        "refused; Ctrl-C ends the run",
+        read(report.step), kPhaseNames[halted - 1],
+        microseconds(report.halted_ns.load(std::memory_order_relaxed)));
+  }
+}
+
 void Housekeeping::summarise() const {
   const runtime::TickReport& report = tick_.report();
   const auto& vehicles = tick_.fleet().vehicles();
@@ -101,17 +161,19 @@ void Housekeeping::summarise() const {
   for (const auto& vehicle : vehicles) {
     worst = std::max(worst, runtime::momentum_residual_relative(vehicle));
   }
-  const auto body = report.tick_body.quantiles();
-  const auto late = report.wake_up_lateness.quantiles();
+  const runtime::TimingRecord now = timing();
   spdlog::info("{} steps of {}, {} spacecraft, momentum residual at most {:.1e} of |H|",
                read(report.step), scene::format_duration(scene_.simulation.step_ns),
                vehicles.size(), worst);
-  spdlog::info("tick body p50 {:.1f} us, p99.9 {:.1f} us, max {:.1f} us", microseconds(body.p50_ns),
-               microseconds(body.p99_9_ns), microseconds(body.max_ns));
-  if (late.count > 0) {
-    spdlog::info("wake-up lateness p50 {:.1f} us, p99.9 {:.1f} us, max {:.1f} us; {} beats missed",
-                 microseconds(late.p50_ns), microseconds(late.p99_9_ns), microseconds(late.max_ns),
-                 read(report.missed_beats));
+  for (std::size_t i = 0; i < runtime::kPhases; ++i) {
+    log_quantiles(kPhaseNames[i], now.phases[i].took);
+  }
+  log_quantiles("tick body", now.tick_body);
+  if (scene_.simulation.pace == scene::Pace::clock) {
+    spdlog::info(
+        "{} beats late ({} after our own work, {} after the sleep), {} missed, {} caught up",
+        now.late_beats, now.late_after_work, now.late_after_sleep, now.missed_beats,
+        now.caught_up_beats);
   }
   spdlog::info("{} commands, {} of them refused", read(report.commands_received),
                read(report.commands_refused));

@@ -1,6 +1,7 @@
 #pragma once
 // Beside the tick: once in a while look at what it counted, tell the bridge, and log what changed.
 
+#include <array>
 #include <cstdint>
 
 #include "service/runtime/real_time.hpp"
@@ -15,8 +16,11 @@ class Housekeeping {
   Housekeeping(const scene::Scene& scene, const runtime::Tick& tick,
                runtime::MappedSegment& segment);
 
-  /// What the tick's thread got of the system; known once it has started.
-  void set_real_time(const runtime::RealTime& real_time) { real_time_ = real_time; }
+  /// The tick's thread, once it has started: faults and switches count from here.
+  void watch_thread(int thread) {
+    thread_ = thread;
+    at_start_ = runtime::account_of(thread);
+  }
 
   /// Writes status and timing for the bridge and logs changes since the last call. Once a second
   /// will do.
@@ -26,12 +30,18 @@ class Housekeeping {
   void summarise() const;
 
  private:
-  void log_changes();
+  runtime::StatusRecord status(std::uint64_t bridge_restarts, bool stopped) const;
+  runtime::TimingRecord timing() const;
+  void log_changes(const runtime::TimingRecord& now);
+  void log_budget(const runtime::TimingRecord& now);
 
   const scene::Scene& scene_;
   const runtime::Tick& tick_;
   runtime::MappedSegment& segment_;
-  runtime::RealTime real_time_;
+  int thread_ = 0;
+  runtime::ThreadAccount at_start_;
+  bool halt_said_ = false;
+  std::array<std::uint64_t, runtime::kPhases> over_budget_seen_{};
   std::uint64_t unresolved_seen_ = 0;
   std::uint64_t missed_seen_ = 0;
   std::uint64_t overruns_seen_ = 0;

@@ -18,6 +18,7 @@
 #include "service/adstard/scene_text.hpp"
 #include "service/log.hpp"
 #include "service/report/scene_report.hpp"
+#include "service/runtime/admission.hpp"
 #include "service/runtime/real_time.hpp"
 #include "service/runtime/shared_segment.hpp"
 #include "service/runtime/tick.hpp"
@@ -57,6 +58,23 @@ std::string bridge_message(const runtime::SharedSegment& segment) {
     message += c >= ' ' && c <= '~' ? c : ' ';
   }
   return message;
+}
+
+/// Whether the scene fits this machine, by its own measure; says what it found.
+bool admitted(const scene::Scene& scene) {
+  if (scene.simulation.pace != scene::Pace::clock) {
+    return true;
+  }
+  const runtime::StepCost cost = runtime::measure_step(scene);
+  const std::string misfit = runtime::why_it_does_not_fit(scene, cost);
+  if (misfit.empty()) {
+    spdlog::info("a step costs at most {:.1f} us here (p99 of {} at the sub-step limit)",
+                 static_cast<double>(cost.p99_ns) * 1e-3, cost.steps);
+    return true;
+  }
+  spdlog::log(scene.budget.refuse_at_start ? spdlog::level::err : spdlog::level::warn, "{}",
+              misfit);
+  return !scene.budget.refuse_at_start;
 }
 
 /// Waits until the bridge has found its place on the bus. kDone when it has.
@@ -135,7 +153,7 @@ int fly(const scene::Scene& scene, const std::string& text, const std::string& f
   for (const std::string& warning : real_time.warnings) {
     spdlog::warn("{}", warning);
   }
-  housekeeping.set_real_time(real_time);
+  housekeeping.watch_thread(real_time.thread);
 
   bool bridge_was_alive = true;
   std::int64_t next_look = 0;
@@ -189,6 +207,9 @@ int main(int argc, char** argv) {
     scene::Scene scene = scene::parse(text, options->scene_file);
     apply(*options, scene);
     set_up_log(scene.log, "adstard");
+    if (!admitted(scene)) {
+      return kRefused;
+    }
     return fly(scene, text, options->scene_file, signals);
   } catch (const scene::SceneError& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -19,7 +19,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.set_version_flag("--version", ADSTAR_VERSION);
   app.footer(
       "Example:\n  adstard configs/scenes/demo.toml\n\n"
-      "Exit codes: 0 done, 2 usage or scene, 3 refused (somebody flies these spacecraft already), "
+      "Exit codes: 0 done, 2 usage or scene, 3 refused (somebody flies these spacecraft already, "
+      "or the "
+      "step does not fit its beat), "
       "1 anything else.");
   try {
     app.parse(argc, argv);

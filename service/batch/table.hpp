@@ -7,6 +7,7 @@
 
 #include "adstar/batch/step.hpp"
 #include "adstar/integrators/coadjoint.hpp"
+#include "adstar/integrators/coadjoint_float.hpp"
 #include "service/batch/named_kernels.hpp"
 
 namespace adstar::batch {
@@ -19,8 +20,10 @@ struct TableOf {
 
 /// To add a scheme: one line here. tests/unit/batch_test.cpp names those that are missing.
 template <class Arch>
-using KernelTable = TableOf<Arch,          //
-                            CoadjointRk4,  //
-                            CoadjointMidpoint2>;
+using KernelTable = TableOf<Arch,                //
+                            CoadjointRk4,        //
+                            CoadjointRk4Float,   //
+                            CoadjointMidpoint2,  //
+                            CoadjointMidpoint2Float>;
 
 }  // namespace adstar::batch

@@ -25,10 +25,18 @@ static_assert(static_cast<int>(Reason::old_sequence) == adstar_REASON_OLD_SEQUEN
 static_assert(static_cast<int>(Reason::no_authority) == adstar_REASON_NO_AUTHORITY);
 static_assert(static_cast<int>(Reason::schedule_full) == adstar_REASON_SCHEDULE_FULL);
 static_assert(static_cast<int>(Reason::capacity) == adstar_REASON_CAPACITY);
+static_assert(static_cast<int>(Reason::halted) == adstar_REASON_HALTED);
+static_assert(static_cast<int>(runtime::RunState::running) == adstar_SERVICE_RUNNING);
+static_assert(static_cast<int>(runtime::RunState::stopped) == adstar_SERVICE_STOPPED);
+static_assert(static_cast<int>(runtime::RunState::halted) == adstar_SERVICE_HALTED);
 static_assert(runtime::kStartAtNextBeat == adstar_START_AT_NEXT_BEAT);
 static_assert(runtime::kFlagUnresolvedAngle == adstar_FLAG_UNRESOLVED_ANGLE);
 static_assert(runtime::kFlagUnresolvedEdges == adstar_FLAG_UNRESOLVED_EDGES);
 static_assert(runtime::kFlagFinal == adstar_FLAG_FINAL);
+static_assert(runtime::kFlagUnresolvedDamping == adstar_FLAG_UNRESOLVED_DAMPING);
+static_assert(runtime::kFlagLightAxis == adstar_FLAG_LIGHT_AXIS);
+static_assert(runtime::kFlagSeparatrix == adstar_FLAG_SEPARATRIX);
+static_assert(runtime::kFlagAttitudeLost == adstar_FLAG_ATTITUDE_LOST);
 
 namespace {
 
@@ -40,6 +48,11 @@ adstar_Quaternion quaternion(const std::array<double, 4>& q) noexcept {
 
 adstar_Quantiles quantiles(const runtime::QuantilesRecord& q) noexcept {
   return {q.count, q.p50_ns, q.p99_ns, q.p99_9_ns, q.max_ns};
+}
+
+adstar_PhaseTiming phase(const runtime::TimingRecord& record, runtime::Phase which) noexcept {
+  const runtime::PhaseRecord& p = record.phases[static_cast<std::size_t>(which)];
+  return {quantiles(p.took), p.budget_ns, p.over_budget};
 }
 
 // Read as a number: the value may lie outside the enumeration.
@@ -139,11 +152,24 @@ adstar_StepTiming to_sample(const runtime::TimingRecord& record,
   set_text(sample.service, service);
   sample.step = record.step;
   sample.time_ns = record.time_ns;
-  sample.wake_up_lateness = quantiles(record.wake_up_lateness);
+  sample.wake_up_lateness = phase(record, runtime::Phase::wake_up);
+  sample.command_phase = phase(record, runtime::Phase::commands);
+  sample.step_phase = phase(record, runtime::Phase::step);
+  sample.hand_over_phase = phase(record, runtime::Phase::hand_over);
   sample.tick_body = quantiles(record.tick_body);
   sample.late_beats = record.late_beats;
+  sample.late_after_work = record.late_after_work;
+  sample.late_after_sleep = record.late_after_sleep;
   sample.overruns = record.overruns;
   sample.missed_beats = record.missed_beats;
+  sample.caught_up_beats = record.caught_up_beats;
+  sample.behind_wall_ns = record.behind_ns;
+  sample.minor_page_faults = record.account.minor_faults;
+  sample.major_page_faults = record.account.major_faults;
+  sample.involuntary_switches = record.account.involuntary_switches;
+  sample.most_commands_waiting = clip32(record.account.most_commands);
+  sample.most_verdicts_waiting = clip32(record.account.most_verdicts);
+  sample.most_telemetry_waiting = clip32(record.account.most_telemetry);
   sample.fifo_scheduling = record.fifo_scheduling != 0;
   sample.memory_locked = record.memory_locked != 0;
   sample.cpu_pinned = record.cpu_pinned != 0;
@@ -157,7 +183,8 @@ adstar_ServiceStatus to_sample(const runtime::StatusRecord& record,
   sample.instance_high = facts.instance.high;
   sample.instance_low = facts.instance.low;
   sample.started_utc_ns = facts.started_utc_ns;
-  sample.state = record.stopped != 0 ? adstar_SERVICE_STOPPED : adstar_SERVICE_RUNNING;
+  // The record comes from the shared memory of this program's own parent: its state is in range.
+  sample.state = static_cast<adstar_ServiceState>(record.state);
   sample.step = record.step;
   sample.time_ns = record.time_ns;
   sample.step_length_ns = facts.step_length_ns;
@@ -185,7 +212,7 @@ std::optional<Verdict> verdict_of(const adstar_CommandStatus& sample) noexcept {
 
 std::optional<Reason> reason_of(const adstar_CommandStatus& sample) noexcept {
   const std::uint32_t value = number(sample.reason);
-  if (value > static_cast<std::uint32_t>(Reason::capacity)) {
+  if (value > static_cast<std::uint32_t>(Reason::halted)) {
     return std::nullopt;
   }
   return static_cast<Reason>(value);

@@ -47,6 +47,8 @@ const char* reason_name(Reason reason) noexcept {
       return "schedule_full";
     case Reason::capacity:
       return "capacity";
+    case Reason::halted:
+      return "halted";
   }
   return "unknown reason";
 }
@@ -76,6 +78,9 @@ const char* reason_text(Reason reason) noexcept {
       return "64 commands wait on this actuator already; wait until some have begun";
     case Reason::capacity:
       return "the service's memory of commanders is full; use fewer commanding processes";
+    case Reason::halted:
+      return "the service's clock stands: a beat was over its budget; see its log, and start it "
+             "anew";
   }
   return "a reason that this program does not know; it is older than the service";
 }

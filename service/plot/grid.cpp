@@ -1,5 +1,7 @@
 #include "service/plot/grid.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "service/plot/escape.hpp"
@@ -7,22 +9,24 @@
 namespace adstar::plot {
 namespace {
 
-constexpr double kLeft = 190, kTop = 60, kCellWidth = 50, kCellHeight = 20;
+constexpr double kLeft = 190, kTop = 60, kCellWidth = 54, kCellHeight = 20, kBelow = 50;
 
-}  // namespace
+double width_of(const Grid& grid) {
+  return kLeft + kCellWidth * static_cast<double>(grid.columns.size());
+}
+double height_of(const Grid& grid) {
+  return kTop + kCellHeight * static_cast<double>(grid.rows.size()) + kBelow;
+}
 
-std::string svg(const Grid& grid) {
-  const double right = kLeft + kCellWidth * static_cast<double>(grid.columns.size());
-  const double bottom = kTop + kCellHeight * static_cast<double>(grid.rows.size());
-  const double height = bottom + 64 + 20 * static_cast<double>(grid.kinds.size());
-  std::string text = fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" )"
-      R"(font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="#fff"/>)"
-      R"(<text x="16" y="28" font-size="18">{2}</text>)"
-      "\n",
-      right + 20, height, escaped(grid.title));
+/// The grid from `above` down.
+std::string cells_of(const Grid& grid, double above) {
+  const double top = above + kTop;
+  const double bottom = top + kCellHeight * static_cast<double>(grid.rows.size());
+  std::string text = fmt::format(R"(<text x="16" y="{}" font-size="18">{}</text>)"
+                                 "\n",
+                                 above + 36, escaped(grid.title));
   for (std::size_t row = 0; row < grid.rows.size(); ++row) {
-    const double y = kTop + kCellHeight * static_cast<double>(row);
+    const double y = top + kCellHeight * static_cast<double>(row);
     text += fmt::format(R"(<text x="{}" y="{}" text-anchor="end">{}</text>)", kLeft - 8, y + 14,
                         escaped(grid.rows[row]));
     for (std::size_t column = 0; column < grid.columns.size(); ++column) {
@@ -31,28 +35,47 @@ std::string svg(const Grid& grid) {
       text += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" fill="{}" stroke="#fff"/>)",
                           x, y, kCellWidth, kCellHeight, grid.kinds[cell.kind].colour);
       if (!cell.text.empty()) {
-        text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle" font-size="10">{}</text>)",
-                            x + kCellWidth / 2, y + 14, escaped(cell.text));
+        text += fmt::format(
+            R"(<text x="{}" y="{}" text-anchor="middle" font-size="10" fill="{}">{}</text>)",
+            x + kCellWidth / 2, y + 14, grid.kinds[cell.kind].ink, escaped(cell.text));
       }
     }
     text += "\n";
   }
   for (std::size_t column = 0; column < grid.columns.size(); ++column) {
-    text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)",
-                        kLeft + kCellWidth * (static_cast<double>(column) + 0.5), bottom + 16,
+    text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle" font-size="10">{}</text>)",
+                        kLeft + kCellWidth * (static_cast<double>(column) + 0.5), bottom + 15,
                         escaped(grid.columns[column]));
   }
-  text += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)"
-                      "\n",
-                      (kLeft + right) / 2, bottom + 36, escaped(grid.x_label));
-  for (std::size_t i = 0; i < grid.kinds.size(); ++i) {
-    const double y = bottom + 50 + 20 * static_cast<double>(i);
-    text += fmt::format(
+  return text + fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)"
+                            "\n",
+                            (kLeft + width_of(grid)) / 2, bottom + 34, escaped(grid.x_label));
+}
+
+}  // namespace
+
+std::string svg(const std::vector<Grid>& grids) {
+  double width = 0, height = 0;
+  std::string body;
+  for (const Grid& grid : grids) {
+    body += cells_of(grid, height);
+    width = std::max(width, width_of(grid));
+    height += height_of(grid);
+  }
+  const std::vector<Kind> kinds = grids.empty() ? std::vector<Kind>{} : grids.back().kinds;
+  for (const Kind& kind : kinds) {
+    body += fmt::format(
         R"(<rect x="{0}" y="{1}" width="28" height="14" fill="{2}"/><text x="{3}" y="{4}">{5}</text>)"
         "\n",
-        kLeft, y, grid.kinds[i].colour, kLeft + 38, y + 12, escaped(grid.kinds[i].name));
+        kLeft, height, kind.colour, kLeft + 38, height + 12, escaped(kind.name));
+    height += 20;
   }
-  return text + "</svg>\n";
+  return fmt::format(
+             R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" viewBox="0 0 {0} {1}" )"
+             R"(font-family="sans-serif" font-size="12"><rect width="100%" height="100%" fill="#fff"/>)"
+             "\n",
+             width + 20, height + 14) +
+         body + "</svg>\n";
 }
 
 }  // namespace adstar::plot

@@ -1,5 +1,5 @@
 #pragma once
-// A table of coloured cells as SVG text.
+// Tables of coloured cells, one below the other, as SVG text.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,8 @@ namespace adstar::plot {
 
 struct Kind {
   std::string name;
-  std::string colour;  ///< "#0072b2"
+  std::string colour;        ///< "#0072b2"
+  std::string ink = "#000";  ///< of text on it
 };
 
 struct Cell {
@@ -23,6 +24,7 @@ struct Grid {
   std::vector<Cell> cells;  ///< row by row
 };
 
-std::string svg(const Grid& grid);
+/// The kinds of the last are the legend of all.
+std::string svg(const std::vector<Grid>& grids);
 
 }  // namespace adstar::plot

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "adstar/integrators/all.hpp"
+#include "adstar/propagator.hpp"
 #include "service/report/numbers.hpp"
 #include "service/report/spacecraft_report.hpp"
 
@@ -15,14 +17,14 @@ namespace {
 struct SchemeFacts {
   int order = 0;
   double stage_reach = 1;
-  int leak_power = 0;
+  Sensitivity sensitivity;
 };
 
 SchemeFacts facts_of(const std::string& scheme) {
   SchemeFacts facts;
   with_scheme(scheme, [&](auto s) {
     facts = {decltype(s)::kOrder, static_cast<double>(decltype(s)::kStageReach),
-             decltype(s)::kLeakPower};
+             sensitivity_of<decltype(s)>()};
   });
   return facts;
 }
@@ -62,8 +64,10 @@ std::string turn_report(const scene::Scene& scene) {
       largest = turn;
       fastest = &craft;
     }
-    const SubstepCount count =
-        count_substeps(body, Pi_B, 0.0, h, facts.stage_reach, limits, facts.leak_power);
+    const Vec3<double> damping =
+        adstar::detail::make_segment(std::span<const Torque<double>>(craft.torques), 0).damping;
+    const SubstepCount count = count_substeps(body, Pi_B, 0.0, h, facts.stage_reach, limits,
+                                              facts.sensitivity, decay_rate(body, damping));
     parts = std::max(parts, count.parts);
     resolved = resolved && count.within_limit;
   }

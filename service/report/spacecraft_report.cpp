@@ -48,6 +48,9 @@ std::string details(const Harmonic<double>& model) {
   return fmt::format("amplitude {} N m, angular frequency {} rad/s",
                      vector_text(model.amplitude_n_m), vector_text(model.angular_frequency_rad_s));
 }
+std::string details(const Damping<double>& model) {
+  return fmt::format("-c omega, c {} N m s/rad", vector_text(model.coefficient_n_m_s_rad));
+}
 std::string details(const Table<double>& model) {
   const bool hold = model.interpolation == Interpolation::hold;
   return fmt::format("{} rows from {} s to {} s, {}, then {}", counted(model.time_ns.size()),

@@ -146,7 +146,8 @@ class BatchStepper final : public Stepper {
         unresolved += step_alone(step, member);
       } else {
         const Segment segment = adstar::detail::make_segment(torques, t_ns);
-        unresolved += put(step, kind_of(segment), member, segment);
+        unresolved += segment.damped ? step_alone(step, member)  // of the rate: no kernel has it
+                                     : put(step, kind_of(segment), member, segment);
       }
     }
     for (const Kind kind : {Kind::free, Kind::body, Kind::ramps, Kind::varying}) {

@@ -3,8 +3,8 @@
 // without a clock.
 //
 // Beat n is due at base + (n + missed)·period, from integers, never by adding periods up. Whoever
-// comes a period late or more has missed beats: they are counted, the grid keeps its phase, and
-// simulation time falls behind the wall's.
+// comes a period late or more is behind: beats beyond those that may be caught up are missed. They are
+// counted, the grid keeps its phase, and simulation time falls behind the wall's.
 
 #include <cmath>
 #include <cstdint>
@@ -36,16 +36,22 @@ inline std::int64_t due_ns(const BeatClock& clock, std::uint64_t n) {
   return clock.base_ns + beats_to_ns(clock, n + clock.missed);
 }
 
-/// Whole periods between the moment beat n was due and `now_ns`; moves the grid by as many.
-inline std::uint64_t realign(BeatClock& clock, std::uint64_t n, std::int64_t now_ns) {
+/// Whole periods between the moment beat n was due and `now_ns`.
+inline std::uint64_t beats_behind(const BeatClock& clock, std::uint64_t n, std::int64_t now_ns) {
   const std::int64_t late_ns = now_ns - due_ns(clock, n);
   if (late_ns <= 0) {
     return 0;
   }
   __extension__ using Wide = __int128;
-  const auto missed =
-      static_cast<std::uint64_t>(static_cast<Wide>(late_ns) * clock.rate_millionths /
-                                 (static_cast<Wide>(clock.step_ns) * 1'000'000));
+  return static_cast<std::uint64_t>(static_cast<Wide>(late_ns) * clock.rate_millionths /
+                                    (static_cast<Wide>(clock.step_ns) * 1'000'000));
+}
+
+/// Moves the grid by the whole periods that beat n is late beyond `allowed`; returns how many.
+inline std::uint64_t realign(BeatClock& clock, std::uint64_t n, std::int64_t now_ns,
+                             std::uint64_t allowed = 0) {
+  const std::uint64_t behind = beats_behind(clock, n, now_ns);
+  const std::uint64_t missed = behind > allowed ? behind - allowed : 0;
   clock.missed += missed;
   return missed;
 }

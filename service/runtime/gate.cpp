@@ -96,6 +96,17 @@ bool CommandGate::repeat(const Stream& stream, const Actuator& actuator,
   return known != nullptr;
 }
 
+void CommandGate::refuse(const CommandRecord& command, const Beat& beat, Reason reason) noexcept {
+  ++counters_.received;
+  ++counters_.refused;
+  std::uint32_t number = 0;
+  if (find(command, number) != nullptr) {
+    VerdictRecord verdict = answer_to(command, beat);
+    verdict.reason = reason;
+    put(verdict);
+  }
+}
+
 void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexcept {
   ++counters_.received;
   VerdictRecord verdict = answer_to(command, beat);

@@ -45,6 +45,9 @@ class CommandGate {
   /// Judges one command. Answers at once, except what begins in this beat: begin_step answers that.
   void receive(const CommandRecord& command, const Beat& beat) noexcept;
 
+  /// Answers without judging: `reason` holds for everybody.
+  void refuse(const CommandRecord& command, const Beat& beat, Reason reason) noexcept;
+
   /// Ends, begins and answers what this beat's step reaches, and hands the torques to the vehicles.
   void begin_step(const Beat& beat, Fleet& fleet) noexcept;
 

@@ -1,13 +1,67 @@
 #include "service/runtime/real_time.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <pthread.h>
 #include <sched.h>
+#include <sstream>
+#include <string_view>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 namespace adstar::runtime {
+namespace {
+
+/// More than a beat uses; locked pages are mapped when they are first touched.
+[[gnu::noinline]] void touch_stack() {
+  volatile char pages[std::size_t{256} * 1024];
+  for (std::size_t i = 0; i < sizeof pages; i += 1024) {
+    pages[i] = 0;
+  }
+}
+
+/// The number behind `name` in a file of lines "name: number"; 0 when it is not there.
+std::uint64_t number_in(const std::string& file, std::string_view name) {
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(name)) {
+      return std::strtoull(line.c_str() + name.size(), nullptr, 10);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+ThreadAccount account_of(int thread) {
+  ThreadAccount account;
+  const std::string folder = "/proc/self/task/" + std::to_string(thread);
+  // proc(5): after the name in parentheses, minflt is the eighth field and majflt the tenth.
+  std::ifstream file(folder + "/stat");
+  std::string text;
+  std::getline(file, text);
+  if (const std::size_t named = text.rfind(')'); named != std::string::npos) {
+    std::istringstream fields(text.substr(named + 1));
+    std::string field;
+    for (int i = 1; i <= 10 && fields >> field; ++i) {
+      if (i == 8) {
+        account.minor_faults = std::strtoull(field.c_str(), nullptr, 10);
+      } else if (i == 10) {
+        account.major_faults = std::strtoull(field.c_str(), nullptr, 10);
+      }
+    }
+  }
+  account.involuntary_switches = number_in(folder + "/status", "nonvoluntary_ctxt_switches:");
+  account.fifo_scheduling = sched_getscheduler(thread) == SCHED_FIFO;
+  account.memory_locked = number_in("/proc/self/status", "VmLck:") > 0;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  account.cpu_pinned = sched_getaffinity(thread, sizeof set, &set) == 0 && CPU_COUNT(&set) == 1;
+  return account;
+}
 
 void lock_memory(RealTime& result) {
   if (mlockall(MCL_CURRENT) == 0 && mlockall(MCL_FUTURE | MCL_ONFAULT) == 0) {
@@ -21,6 +75,8 @@ void lock_memory(RealTime& result) {
 }
 
 void make_thread_real_time(int priority, std::optional<int> cpu, RealTime& result) {
+  result.thread = static_cast<int>(gettid());
+  touch_stack();
   prctl(PR_SET_TIMERSLACK, 1UL);
   if (cpu) {
     cpu_set_t set;

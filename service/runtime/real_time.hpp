@@ -1,6 +1,7 @@
 #pragma once
 // What the tick's thread asks of the system, and what it got.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@ struct RealTime {
   bool fifo_scheduling = false;
   bool memory_locked = false;
   bool cpu_pinned = false;
+  int thread = 0;                     ///< the tick's, as the system numbers it
   std::vector<std::string> warnings;  ///< one for each thing refused, with its remedy
 };
 
@@ -19,7 +21,19 @@ struct RealTime {
 void lock_memory(RealTime& result);
 
 /// For the calling thread: SCHED_FIFO at `priority` (0: leave as it is), affinity, the finest timer
-/// slack.
+/// slack, a stack that is already there.
 void make_thread_real_time(int priority, std::optional<int> cpu, RealTime& result);
+
+/// What the system has done to a thread since it began, and what it grants it now. Zero where /proc does
+/// not say. Off the tick: reads files.
+struct ThreadAccount {
+  std::uint64_t minor_faults = 0;
+  std::uint64_t major_faults = 0;
+  std::uint64_t involuntary_switches = 0;
+  bool fifo_scheduling = false;
+  bool memory_locked = false;  ///< of the process
+  bool cpu_pinned = false;
+};
+ThreadAccount account_of(int thread);
 
 }  // namespace adstar::runtime

@@ -55,7 +55,8 @@ enum class Reason : std::uint32_t {
   old_sequence,
   no_authority,
   schedule_full,
-  capacity
+  capacity,
+  halted
 };
 
 /// The answer to one command.
@@ -83,6 +84,11 @@ inline constexpr std::uint32_t kTopicMomentum = 2;
 inline constexpr std::uint32_t kFlagUnresolvedAngle = 1;
 inline constexpr std::uint32_t kFlagUnresolvedEdges = 2;
 inline constexpr std::uint32_t kFlagFinal = 4;
+inline constexpr std::uint32_t kFlagUnresolvedDamping = 8;
+// Beside kFlagUnresolvedAngle, what it speaks of where it is not the turn alone.
+inline constexpr std::uint32_t kFlagLightAxis = 16;
+inline constexpr std::uint32_t kFlagSeparatrix = 32;
+inline constexpr std::uint32_t kFlagAttitudeLost = 64;
 
 /// One spacecraft at one step.
 struct TelemetryRecord {
@@ -119,11 +125,14 @@ struct FleetHeader {
   std::uint64_t members = 0;
 };
 
+/// Same values and order as ServiceState in idl/health.idl.
+enum class RunState : std::uint64_t { running, stopped, halted };
+
 /// Counts, once a second and at the end: becomes ServiceStatus.
 struct StatusRecord {
   std::uint64_t step = 0;
   std::int64_t time_ns = 0;
-  std::uint64_t stopped = 0;  ///< 1: the run is over
+  std::uint64_t state = 0;  ///< RunState
   std::uint64_t unresolved_spacecraft = 0;
   double worst_momentum_residual_relative = 0;
   std::uint64_t commands_received = 0;
@@ -142,15 +151,40 @@ struct QuantilesRecord {
   std::int64_t max_ns = 0;
 };
 
+/// The parts of a beat.
+enum class Phase : std::uint32_t { wake_up, commands, step, hand_over };
+inline constexpr std::size_t kPhases = 4;
+
+struct PhaseRecord {
+  QuantilesRecord took;
+  std::int64_t budget_ns = 0;  ///< 0: none
+  std::uint64_t over_budget = 0;
+};
+
+/// What the system did to the tick's thread, and the most that waited in each ring.
+struct TickAccount {
+  std::uint64_t minor_faults = 0;
+  std::uint64_t major_faults = 0;
+  std::uint64_t involuntary_switches = 0;  ///< taken off the processor with work left
+  std::uint64_t most_commands = 0;
+  std::uint64_t most_verdicts = 0;
+  std::uint64_t most_telemetry = 0;
+};
+
 /// Becomes StepTiming.
 struct TimingRecord {
   std::uint64_t step = 0;
   std::int64_t time_ns = 0;
-  QuantilesRecord wake_up_lateness;
+  std::array<PhaseRecord, kPhases> phases;  ///< by Phase
   QuantilesRecord tick_body;
-  std::uint64_t late_beats = 0;
+  std::uint64_t late_beats = 0;        ///< begun a period late or more
+  std::uint64_t late_after_work = 0;   ///< of those: a beat took longer than the period
+  std::uint64_t late_after_sleep = 0;  ///< of those: the system woke the tick late
   std::uint64_t overruns = 0;
   std::uint64_t missed_beats = 0;
+  std::uint64_t caught_up_beats = 0;
+  std::int64_t behind_ns = 0;  ///< of the wall clock, now
+  TickAccount account;
   std::uint64_t fifo_scheduling = 0;
   std::uint64_t memory_locked = 0;
   std::uint64_t cpu_pinned = 0;

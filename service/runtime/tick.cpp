@@ -29,6 +29,13 @@ void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
 }
 
+/// A high-water mark.
+void raise(std::atomic<std::uint64_t>& mark, std::uint64_t level) noexcept {
+  if (level > mark.load(std::memory_order_relaxed)) {
+    mark.store(level, std::memory_order_relaxed);
+  }
+}
+
 bool due_at(std::uint64_t step, std::uint64_t every, bool everything) noexcept {
   return every != 0 && (everything || step % every == 0);
 }
@@ -47,6 +54,14 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
       pace_(scene.simulation.pace),
       rate_(scene.simulation.rate),
       telemetry_(scene.telemetry),
+      on_overrun_(scene.budget.on_overrun),
+      catch_up_beats_(on_overrun_ == scene::Overrun::catch_up
+                          ? static_cast<std::uint64_t>(scene.budget.catch_up_beats)
+                          : 0),
+      budget_ns_(pace_ == scene::Pace::clock
+                     ? std::array{scene.budget.wake_up_ns, scene.budget.commands_ns,
+                                  scene.budget.step_ns, scene.budget.hand_over_ns}
+                     : std::array<std::int64_t, kPhases>{}),
       fleet_(scene.spacecraft, scene.simulation.scheme, scene.simulation.limits),
       gate_(scene.spacecraft, segment->verdicts),
       fleet_words_(fleet_words(segment.fleet_size())) {}
@@ -54,45 +69,70 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
 void Tick::run(const std::atomic<bool>& stop) noexcept {
   publish(0, true);
   BeatClock clock = make_beat_clock(monotonic_ns(), step_ns_, rate_);
-  std::int64_t begun = clock.base_ns;
+  const std::int64_t period_ns = pace_ == scene::Pace::clock ? beats_to_ns(clock, 1) : 0;
+  std::int64_t ended = clock.base_ns;
   for (std::uint64_t n = 0; !stop.load(std::memory_order_relaxed) && n < last_step_; ++n) {
-    if (pace_ == scene::Pace::clock) {
-      const std::int64_t due = due_ns(clock, n);
-      sleep_until(due);
-      begun = monotonic_ns();
-      report_.wake_up_lateness.record(begun - due);
-      const std::uint64_t missed = realign(clock, n, begun);
-      if (missed > 0) {
-        add(report_.late_beats, 1);
-        add(report_.missed_beats, missed);
-      }
+    const std::int64_t begun = pace_ == scene::Pace::clock ? await_beat(clock, n, ended) : ended;
+    if (halted()) {
+      break;
     }
-    beat(n, begun);
-    const std::int64_t ended = monotonic_ns();
-    report_.tick_body.record(ended - begun);
-    if (pace_ == scene::Pace::clock && ended - begun > beats_to_ns(clock, 1)) {
-      add(report_.overruns, 1);
-    }
-    begun = ended;
+    const BeatTimes times = beat(n, begun);
+    account(times, period_ns);
+    ended = times.handed_over;
+  }
+  if (halted()) {
+    stand_still(stop);
   }
 }
 
-void Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
-  const Beat now{n, static_cast<std::int64_t>(n) * step_ns_, step_ns_};
-  for (int taken = 0; taken < kCommandsPerBeat; ++taken) {
-    const std::optional<CommandRecord> command = segment_->commands.pop();
-    if (!command) {
-      break;
+/// Sleeps until beat n is due, unless it is already; returns when it began.
+std::int64_t Tick::await_beat(BeatClock& clock, std::uint64_t n, std::int64_t ended_ns) noexcept {
+  const std::int64_t due = due_ns(clock, n);
+  const bool slept = ended_ns < due;
+  std::int64_t begun = ended_ns;
+  if (slept) {
+    sleep_until(due);
+    begun = monotonic_ns();
+  }
+  report_.phases[static_cast<std::size_t>(Phase::wake_up)].record(begun - due);
+  judge(Phase::wake_up, begun - due);
+  if (slept) {
+    late_by_work_ = false;
+  }
+  catch_up_or_skip(clock, n, begun);
+  return begun;
+}
+
+void Tick::catch_up_or_skip(BeatClock& clock, std::uint64_t n, std::int64_t begun_ns) noexcept {
+  const std::uint64_t behind = beats_behind(clock, n, begun_ns);
+  if (behind > 0) {
+    add(report_.late_beats, 1);
+    add(late_by_work_ ? report_.late_after_work : report_.late_after_sleep, 1);
+    const std::int64_t late_ns = begun_ns - due_ns(clock, n);
+    const std::uint64_t missed = realign(clock, n, begun_ns, catch_up_beats_);
+    add(report_.missed_beats, missed);
+    if (catch_up_beats_ > 0) {
+      add(report_.caught_up_beats, 1);  // this one is taken though the next is due
     }
-    // What lay in the ring while this process stood still is nobody's wish any more; who means it
-    // repeats it.
-    if (command->received_ns == 0 || begun_ns - command->received_ns <= kMostAge_ns) {
-      gate_.receive(*command, now);
+    if (on_overrun_ == scene::Overrun::halt) {
+      halt(Phase::wake_up, late_ns);
     }
   }
+  report_.behind_ns.store(
+      beats_to_ns(clock, clock.missed + std::min<std::uint64_t>(behind, catch_up_beats_)),
+      std::memory_order_relaxed);
+}
+
+Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
+  const Beat now{n, static_cast<std::int64_t>(n) * step_ns_, step_ns_};
+  BeatTimes times{begun_ns, 0, 0, 0};
+  take_commands(now, begun_ns);
   gate_.begin_step(now, fleet_);
+  times.commanded = monotonic_ns();
 
   const std::size_t unresolved = fleet_.step(now.t_ns, now.h_ns);
+  times.stepped = monotonic_ns();
+
   if (unresolved > 0) {
     const auto& vehicles = fleet_.vehicles();
     const auto first = std::find_if(vehicles.begin(), vehicles.end(),
@@ -101,14 +141,95 @@ void Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
                                    std::memory_order_relaxed);
   }
   report_.unresolved_spacecraft.store(unresolved, std::memory_order_relaxed);
+  report_.step.store(n + 1, std::memory_order_relaxed);
+  publish_counters();
+
+  const bool everything = segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0;
+  publish(n + 1, everything);
+  times.handed_over = monotonic_ns();
+  return times;
+}
+
+void Tick::take_commands(const Beat& now, std::int64_t begun_ns) noexcept {
+  raise(report_.most_commands, segment_->commands.size());
+  for (int taken = 0; taken < kCommandsPerBeat; ++taken) {
+    const std::optional<CommandRecord> command = segment_->commands.pop();
+    if (!command) {
+      break;
+    }
+    // What lay in the ring while this process stood still is nobody's wish any more; who means it
+    // repeats it.
+    if (command->received_ns != 0 && begun_ns - command->received_ns > kMostAge_ns) {
+      continue;
+    }
+    if (halted()) {
+      gate_.refuse(*command, now, Reason::halted);
+    } else {
+      gate_.receive(*command, now);
+    }
+  }
+}
+
+void Tick::publish_counters() noexcept {
   const GateCounters& counters = gate_.counters();
   report_.commands_received.store(counters.received, std::memory_order_relaxed);
   report_.commands_refused.store(counters.refused, std::memory_order_relaxed);
   report_.verdicts_lost.store(counters.verdicts_lost, std::memory_order_relaxed);
-  report_.step.store(n + 1, std::memory_order_relaxed);
+}
 
-  const bool everything = segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0;
-  publish(n + 1, everything);
+void Tick::account(const BeatTimes& times, std::int64_t period_ns) noexcept {
+  const auto record = [&](Phase phase, std::int64_t took_ns) {
+    report_.phases[static_cast<std::size_t>(phase)].record(took_ns);
+    judge(phase, took_ns);
+  };
+  record(Phase::commands, times.commanded - times.begun);
+  record(Phase::step, times.stepped - times.commanded);
+  record(Phase::hand_over, times.handed_over - times.stepped);
+  const std::int64_t body_ns = times.handed_over - times.begun;
+  report_.tick_body.record(body_ns);
+  if (period_ns != 0 && body_ns > period_ns) {
+    add(report_.overruns, 1);
+    late_by_work_ = true;
+  }
+}
+
+/// Against the budget, where there is one.
+void Tick::judge(Phase phase, std::int64_t took_ns) noexcept {
+  const auto which = static_cast<std::size_t>(phase);
+  if (budget_ns_[which] == 0 || took_ns <= budget_ns_[which]) {
+    return;
+  }
+  add(report_.over_budget[which], 1);
+  if (on_overrun_ == scene::Overrun::halt) {
+    halt(phase, took_ns);
+  }
+}
+
+/// The first cause stands.
+void Tick::halt(Phase phase, std::int64_t took_ns) noexcept {
+  if (!halted()) {
+    report_.halted_ns.store(took_ns, std::memory_order_relaxed);
+    report_.halted.store(static_cast<std::uint32_t>(phase) + 1, std::memory_order_release);
+  }
+}
+
+/// The clock stands: commands are refused, snapshots are served.
+void Tick::stand_still(const std::atomic<bool>& stop) noexcept {
+  constexpr std::int64_t kLook_ns = kSecond / 100;
+  const std::uint64_t step = report_.step.load(std::memory_order_relaxed);
+  const Beat now{step, static_cast<std::int64_t>(step) * step_ns_, step_ns_};
+  publish(step, true);
+  while (!stop.load(std::memory_order_relaxed)) {
+    const std::int64_t begun = monotonic_ns();
+    take_commands(now, begun);
+    publish_counters();
+    if (segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0) {
+      publish(step, true);
+    } else if (segment_->verdicts.size() > 0) {
+      wake_bridge(*segment_);
+    }
+    sleep_until(begun + kLook_ns);
+  }
 }
 
 std::uint32_t Tick::topics_at(std::uint64_t step, bool everything) const noexcept {
@@ -134,7 +255,10 @@ void Tick::publish(std::uint64_t step, bool everything) noexcept {
   if (fleet) {
     write_fleet(step, 0);
   }
-  if (topics != 0 || fleet || segment_->verdicts.size() > 0) {
+  const std::size_t verdicts = segment_->verdicts.size();
+  raise(report_.most_verdicts, verdicts);
+  raise(report_.most_telemetry, segment_->telemetry.size());
+  if (topics != 0 || fleet || verdicts > 0) {
     wake_bridge(*segment_);
   }
 }

@@ -5,6 +5,7 @@
 // Nothing in here calls DDS, the logger or the allocator, or waits on a lock; the only system calls
 // are the sleep to the next beat and, when the bridge sleeps, one futex wake.
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -28,11 +29,25 @@ struct TickReport {
   std::atomic<std::uint64_t> verdicts_lost{0};
   std::atomic<std::uint64_t> telemetry_lost{0};
   std::atomic<std::uint64_t> late_beats{0};
+  std::atomic<std::uint64_t> late_after_work{0};
+  std::atomic<std::uint64_t> late_after_sleep{0};
   std::atomic<std::uint64_t> overruns{0};
   std::atomic<std::uint64_t> missed_beats{0};
+  std::atomic<std::uint64_t> caught_up_beats{0};
+  std::atomic<std::int64_t> behind_ns{0};
+  std::atomic<std::uint64_t> most_commands{0};
+  std::atomic<std::uint64_t> most_verdicts{0};
+  std::atomic<std::uint64_t> most_telemetry{0};
   std::atomic<double> worst_momentum_residual_relative{0};
-  Histogram wake_up_lateness;
+  std::array<Histogram, kPhases> phases;  ///< by Phase
+  std::array<std::atomic<std::uint64_t>, kPhases> over_budget{};
   Histogram tick_body;
+  std::atomic<std::uint32_t> halted{0};    ///< 1 + the Phase that was over its budget; 0: it runs
+  std::atomic<std::int64_t> halted_ns{0};  ///< what that phase took
+
+  const Histogram& phase(Phase which) const noexcept {
+    return phases[static_cast<std::size_t>(which)];
+  }
 };
 
 class Tick {
@@ -40,7 +55,7 @@ class Tick {
   Tick(const scene::Scene& scene, MappedSegment& segment);
 
   /// Runs until `stop` is set or the scene's duration is over. Call from the thread that is to be
-  /// real-time.
+  /// real-time. Halted, it goes on serving snapshots and refusing commands until `stop` is set.
   void run(const std::atomic<bool>& stop) noexcept;
 
   /// Publishes every spacecraft's state now, marked final; after run(), off real time: waits up to
@@ -57,7 +72,21 @@ class Tick {
   /// Commands judged in one beat, at most; more wait in the ring for the next.
   static constexpr int kCommandsPerBeat = 256;
 
-  void beat(std::uint64_t n, std::int64_t begun_ns) noexcept;
+  /// When the parts of a beat ended, monotonic time [ns].
+  struct BeatTimes {
+    std::int64_t begun = 0, commanded = 0, stepped = 0, handed_over = 0;
+  };
+
+  std::int64_t await_beat(BeatClock& clock, std::uint64_t n, std::int64_t ended_ns) noexcept;
+  void catch_up_or_skip(BeatClock& clock, std::uint64_t n, std::int64_t begun_ns) noexcept;
+  BeatTimes beat(std::uint64_t n, std::int64_t begun_ns) noexcept;
+  void take_commands(const Beat& now, std::int64_t begun_ns) noexcept;
+  void account(const BeatTimes& times, std::int64_t period_ns) noexcept;
+  void judge(Phase phase, std::int64_t took_ns) noexcept;
+  void halt(Phase phase, std::int64_t took_ns) noexcept;
+  void publish_counters() noexcept;
+  bool halted() const noexcept { return report_.halted.load(std::memory_order_relaxed) != 0; }
+  void stand_still(const std::atomic<bool>& stop) noexcept;
   void publish(std::uint64_t step, bool everything) noexcept;
   std::uint32_t topics_at(std::uint64_t step, bool everything) const noexcept;
   bool push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
@@ -70,9 +99,13 @@ class Tick {
   scene::Pace pace_;
   double rate_;
   scene::Telemetry telemetry_;
+  scene::Overrun on_overrun_;
+  std::uint64_t catch_up_beats_;                 ///< 0 unless they are to be caught up
+  std::array<std::int64_t, kPhases> budget_ns_;  ///< by Phase; 0: none
   Fleet fleet_;
   CommandGate gate_;
   std::vector<std::uint64_t> fleet_words_;
+  bool late_by_work_ = false;  ///< what made the beats since the last sleep late
   TickReport report_;
 };
 

@@ -12,9 +12,17 @@ bool step_vehicle(const BodyOf<Scheme, double>& body, Vehicle& vehicle, std::int
                   std::int64_t h_ns, const StepLimits& limits) noexcept {
   const StepReport report =
       advance<Scheme, double>(body, vehicle.state, vehicle.torques, t_ns, h_ns, limits);
+  vehicle.flags = 0;
+  if (report.resolved()) {
+    return true;
+  }
   vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
-                  (report.unresolved_edges ? kFlagUnresolvedEdges : 0U);
-  return report.resolved();
+                  (report.unresolved_edges ? kFlagUnresolvedEdges : 0U) |
+                  (report.unresolved_damping ? kFlagUnresolvedDamping : 0U) |
+                  (report.at_light_axis ? kFlagLightAxis : 0U) |
+                  (report.at_separatrix ? kFlagSeparatrix : 0U) |
+                  (report.attitude_lost ? kFlagAttitudeLost : 0U);
+  return false;
 }
 
 }  // namespace adstar::runtime

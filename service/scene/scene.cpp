@@ -21,6 +21,10 @@ std::string lines_of(const std::vector<std::string>& complaints) {
 
 }  // namespace
 
+std::int64_t beat_ns(const Simulation& simulation) {
+  return static_cast<std::int64_t>(static_cast<double>(simulation.step_ns) / simulation.rate);
+}
+
 const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft) {
   const auto found = std::find_if(spacecraft.begin(), spacecraft.end(),
                                   [](const Spacecraft& craft) { return !craft.torques.empty(); });
@@ -47,6 +51,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   }
   scene.telemetry = read_telemetry(root, scene.simulation.step_ns, fleet);
   scene.spacecraft = std::move(fleet.spacecraft);
+  scene.budget = read_budget(root, scene.simulation);
   scene.service = read_service(root);
   scene.dds = read_dds(root);
   scene.log = read_log(root);

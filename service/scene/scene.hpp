@@ -31,6 +31,24 @@ struct Simulation {
   StepLimits limits;
 };
 
+/// What follows when the beat cannot be kept.
+enum class Overrun {
+  skip,      ///< missed beats are counted and left out: simulation time falls behind the wall
+  catch_up,  ///< they are worked off as fast as it goes, up to catch_up_beats; older ones are skipped
+  halt       ///< the clock stops at the first beat over its budget; telemetry is still served
+};
+
+/// How long the parts of a beat may take [ns]; 0: counted, not judged. Under Pace::clock only.
+struct Budget {
+  std::int64_t wake_up_ns = 0;  ///< lateness of a beat's beginning
+  std::int64_t commands_ns = 0;
+  std::int64_t step_ns = 0;
+  std::int64_t hand_over_ns = 0;
+  Overrun on_overrun = Overrun::skip;
+  std::int64_t catch_up_beats = 100;
+  bool refuse_at_start = true;  ///< a scene whose step was measured not to fit
+};
+
 /// A commanded torque of the scene: Spacecraft::torques[torque] is its adstar::Commanded.
 struct Actuator {
   std::string name;
@@ -76,10 +94,14 @@ struct Scene {
   Simulation simulation;
   std::vector<Spacecraft> spacecraft;
   Telemetry telemetry;
+  Budget budget;
   Service service;
   Dds dds;
   Log log;
 };
+
+/// Wall time from one beat to the next under Pace::clock [ns].
+std::int64_t beat_ns(const Simulation& simulation);
 
 /// The first spacecraft that names a torque; null when all are free.
 const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft);

@@ -29,6 +29,7 @@ struct Spacecrafts {
 Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Tables tables);
 
 Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fleet);
+Budget read_budget(Keys& root, const Simulation& simulation);
 Service read_service(Keys& root);
 Dds read_dds(Keys& root);
 Log read_log(Keys& root);

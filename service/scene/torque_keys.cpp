@@ -109,13 +109,12 @@ TorquePlan read_table(Keys& keys, const TorqueContext& context) {
           false};
 }
 
-bool refuse_negative(const Value& value) {
+bool refuse_negative(const Value& value, std::string_view expected) {
   bool good = true;
-  const auto check = [&good](const Value& limits) {
+  const auto check = [&](const Value& limits) {
     for (std::size_t i = 0; i < limits.node().items.size(); ++i) {
       if (limits.node().items[i].real < 0.0) {
-        limits.item(i).refuse("a limit of at least 0 N m",
-                              number_text(-limits.node().items[i].real));
+        limits.item(i).refuse(expected, number_text(-limits.node().items[i].real));
         good = false;
       }
     }
@@ -138,7 +137,7 @@ TorquePlan read_commanded(Keys& keys, const TorqueContext&) {
       frame_value ? read_choice(frame_value, kFrames) : std::optional<std::size_t>(0);
   const Value limit_value = keys.required("max_torque_n_m", {kVector, "[1.0, 1.0, 1.0]"});
   const auto limit = read_ranged_vector(limit_value, "[1.0, 1.0, 1.0]");
-  const bool positive = limit && refuse_negative(limit_value);
+  const bool positive = limit && refuse_negative(limit_value, "a limit of at least 0 N m");
   if (!name || !frame || !positive) {
     return {};
   }
@@ -152,6 +151,20 @@ TorquePlan read_commanded(Keys& keys, const TorqueContext&) {
           std::move(actuator), limit->drawn};
 }
 
+TorquePlan read_damping(Keys& keys, const TorqueContext&) {
+  constexpr std::string_view kExample = "[1e-3, 1e-3, 1e-3]";
+  const Value value = keys.required("coefficient_body_n_m_s_rad", {kVector, kExample});
+  const auto coefficient = read_ranged_vector(value, kExample);
+  if (!coefficient ||
+      !refuse_negative(value, "a damping, which takes energy: at least 0 N m s/rad")) {
+    return {};
+  }
+  return {[coefficient = *coefficient](Draws& draws) -> Torque<double> {
+            return Damping<double>{coefficient.value(draws)};
+          },
+          std::nullopt, coefficient->drawn};
+}
+
 struct Model {
   std::string_view name;
   TorquePlan (*read)(Keys&, const TorqueContext&);
@@ -160,7 +173,8 @@ struct Model {
 constexpr Model kModels[] = {{Constant<double>::kName, read_constant},
                              {Harmonic<double>::kName, read_harmonic},
                              {Table<double>::kName, read_table},
-                             {Commanded<double>::kName, read_commanded}};
+                             {Commanded<double>::kName, read_commanded},
+                             {Damping<double>::kName, read_damping}};
 static_assert(std::size(kModels) == std::variant_size_v<Torque<double>>,
               "every model of adstar/torques/all.hpp has its keys here");
 

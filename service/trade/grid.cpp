@@ -33,7 +33,7 @@ double fastest_rad_s(const std::vector<scene::Spacecraft>& spacecraft) {
 
 std::vector<std::int64_t> steps_of(const std::vector<scene::Spacecraft>& spacecraft,
                                    const std::vector<std::int64_t>& instants_ns) {
-  constexpr double kLeastTurn = 3e-3, kMostTurn = 3;
+  constexpr double kLeastTurn = 3e-3, kMostTurn = 6;
   constexpr std::int64_t kDigits[] = {800, 500, 400, 250, 200, 125, 100};
   const std::int64_t stretch_ns = instants_ns.front();
   const double fastest = fastest_rad_s(spacecraft);

@@ -29,8 +29,8 @@ std::string table(const Trade& trade) {
       "*: on the front, nothing is both cheaper and closer; ?: a step said that it could not "
       "follow "
       "the motion\n\n"
-      "  {:<24} {:>5} {:>8} {:>24} {:>12} {:>12} {:>12} {:>12}\n"
-      "  {:<24} {:>5} {:>8} {:>24} {:>12} {:>12} {:>12} {:>12}\n",
+      "  {:<26} {:>5} {:>8} {:>24} {:>12} {:>12} {:>12} {:>12}\n"
+      "  {:<26} {:>5} {:>8} {:>24} {:>12} {:>12} {:>12} {:>12}\n",
       scene::format_duration(trade.horizon_ns), trade.truth,
       counted_instructions(trade) ? "counted" : "this machine has no counter for them", "scheme",
       "order", "step", "cost", "instructions", "attitude", "momentum", "energy", "", "", "", "us/s",
@@ -39,7 +39,7 @@ std::string table(const Trade& trade) {
     const std::string cost = fmt::format("{:.4g} ({:.4g} to {:.4g})", point.cost.median_us,
                                          point.cost.least_us, point.cost.most_us);
     text += fmt::format(
-        "{}{} {:<23} {:>5} {:>8} {:>24} {:>12} {:>12.2e} {:>12.2e} {:>12.2e}\n",
+        "{}{} {:<25} {:>5} {:>8} {:>24} {:>12} {:>12.2e} {:>12.2e} {:>12.2e}\n",
         point.on_front ? '*' : ' ', point.errors.resolved ? ' ' : '?', point.scheme,
         order_text(point.order), scene::format_duration(point.step_ns), cost,
         point.cost.instructions ? fmt::format("{:.3g}", *point.cost.instructions) : "-",

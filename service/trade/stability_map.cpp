@@ -1,154 +1,98 @@
 #include "service/trade/stability_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <random>
+#include <optional>
 
 #include "adstar/integrators/all.hpp"
 #include "service/runtime/fleet.hpp"
+#include "service/trade/step_truth.hpp"
 
 namespace adstar::trade {
 namespace {
 
-using V = Vec3<double>;
+constexpr double kRoundOff = 1e-14, kAccurate = 1e-3, kBounded = 0.1;
 
-constexpr std::int64_t kStepNs = 1'000'000'000;  // the momentum is scaled, not the step
-
-struct Shape {
-  const char* name;
-  V moments_kg_m2;
-};
-
-constexpr Shape kShapes[] = {{"paper's body", {0.9144, 1.098, 1.66}},
-                             {"needle 1e-6", {1e-6, 1, 1}},
-                             {"bent needle", {1e-4, 1, 1.00005}},
-                             {"near-sphere", {1, 1 + 1e-12, 1 + 2e-12}},
-                             {"disc", {0.8, 1.2, 2}},
-                             {"chipsat", {0.9144e-9, 1.098e-9, 1.66e-9}},
-                             {"station", {0.9144e9, 1.098e9, 1.66e9}}};
-
-struct Start {
-  std::string name;
-  V direction;  ///< of Pi_B
-};
-
-/// Pi_B at which 2E = Pi²/J_2: between turning about the lightest and about the heaviest axis.
-V separatrix(const V& moments, double aside) {
-  const double x = std::sqrt(std::max(0.0, (1 / moments.y - 1 / moments.z)));
-  const double z = std::sqrt(std::max(0.0, (1 / moments.x - 1 / moments.y)));
-  const double size = std::hypot(x, z);
-  return size > 0 ? V{x / size + aside, 0.1, z / size} : V{1, 0.1, 1};
-}
-
-std::vector<Start> starts_of(const Shape& shape) {
-  std::vector<Start> starts = {{"about the lightest axis", {1, 1e-3, 1e-3}},
-                               {"about the middle axis", {1e-3, 1, 1e-3}},
-                               {"about the heaviest axis", {1e-3, 1e-3, 1}},
-                               {"on the separatrix", separatrix(shape.moments_kg_m2, 0)},
-                               {"beside the separatrix", separatrix(shape.moments_kg_m2, 1e-9)}};
-  std::mt19937_64 random(42);
-  std::normal_distribution<double> normal;
-  for (int i = 0; i < 4; ++i) {
-    starts.push_back({"at random", {normal(random), normal(random), normal(random)}});
+/// Adds a start's flags to the detectors that spoke.
+void add_detectors(MapCell& cell, std::uint32_t flags) {
+  using namespace runtime;
+  const auto spoke = [&](Detector detector) {
+    ++cell.detectors[static_cast<std::size_t>(detector)];
+  };
+  constexpr std::uint32_t kWhy = kFlagLightAxis | kFlagSeparatrix | kFlagAttitudeLost;
+  if ((flags & kFlagUnresolvedAngle) != 0 && (flags & kWhy) == 0) {
+    spoke(Detector::turn);
   }
-  return starts;
-}
-
-enum class Load { none, weak, strong, blow };
-constexpr const char* kLoads[] = {"free", "weak torque", "strong torque", "blow of a millisecond"};
-
-/// Torques in body axes whose impulse within the step is a part of the momentum.
-std::vector<Torque<double>> torques_of(Load load, double momentum) {
-  const V direction{0.5, -0.7, 0.5};
-  switch (load) {
-    case Load::none:
-      return {};
-    case Load::weak:
-      return {Constant<double>{Frame::body, (1e-3 * momentum) * direction}};
-    case Load::strong:
-      return {Constant<double>{Frame::body, momentum * direction}};
-    case Load::blow:
-      break;
+  if ((flags & kFlagLightAxis) != 0) {
+    spoke(Detector::light_axis);
   }
-  return {Table<double>{Frame::body,
-                        Interpolation::hold,
-                        AfterEnd::zero,
-                        {300'000'000, 301'000'000},
-                        {(100 * momentum) * direction, V{}}}};
+  if ((flags & kFlagSeparatrix) != 0) {
+    spoke(Detector::separatrix);
+  }
+  if ((flags & kFlagUnresolvedDamping) != 0) {
+    spoke(Detector::damping);
+  }
+  if ((flags & kFlagAttitudeLost) != 0) {
+    spoke(Detector::attitude);
+  }
+  if ((flags & kFlagUnresolvedEdges) != 0) {
+    spoke(Detector::edges);
+  }
 }
 
-/// A spacecraft whose free turn within the step is at most `turn_rad`.
-scene::Spacecraft spacecraft_of(const Shape& shape, const V& direction, Load load,
-                                double turn_rad) {
-  scene::Spacecraft craft;
-  craft.name = shape.name;
-  craft.inertia_body_kg_m2 = to_eigen(shape.moments_kg_m2).asDiagonal();
-  const RigidBody<double> body(craft.inertia_body_kg_m2);
-  const double speed = std::sqrt(angular_speed_bound_squared(body, direction, 0.0));
-  const V H_I = (turn_rad / speed) * direction;
-  craft.initial = make_state(Quat<double>{}, H_I);
-  craft.torques = torques_of(load, norm(H_I));
-  return craft;
-}
+/// One start under every scheme, in its column of the chart.
+class Trial {
+ public:
+  Trial(const Extreme& extreme, double& uncertainty_rad)
+      : extreme_(extreme), uncertainty_rad_(uncertainty_rad) {}
 
-struct Case {
-  std::string name;
-  scene::Spacecraft craft;
-  Quat<Wide> truth;
-};
-
-std::vector<Case> cases_at(double turn_rad, const Progress& progress, double done, double share) {
-  constexpr double kGoalRad = 1e-12;
-  constexpr double kMostForcedRad = 5, kThinnest = 1e-5;  // beyond, the truth takes minutes
-  std::vector<Case> cases;
-  double shapes = 0;
-  for (const Shape& shape : kShapes) {
-    const double here = done + share * shapes++ / static_cast<double>(std::size(kShapes));
-    const bool forced =
-        turn_rad <= kMostForcedRad && shape.moments_kg_m2.x > kThinnest * shape.moments_kg_m2.z;
-    for (const Start& start : starts_of(shape)) {
-      for (const Load load : {Load::none, Load::weak, Load::strong, Load::blow}) {
-        if (load != Load::none && !forced) {
-          continue;
-        }
-        scene::Spacecraft craft = spacecraft_of(shape, start.direction, load, turn_rad);
-        const Truth truth =
-            find_truth({craft}, {kStepNs}, kGoalRad, [&](double) { return progress(here); });
-        cases.push_back({std::string(shape.name) + ", " + start.name + ", " +
-                             kLoads[static_cast<std::size_t>(load)],
-                         std::move(craft), truth.spacecraft[0][0].q_IB});
-      }
+  void run(MapCell& cell) {
+    runtime::Fleet fleet({extreme_.craft}, cell.scheme, StepLimits{});
+    const bool reported = fleet.step(0, kExtremeStepNs) > 0;
+    const runtime::Vehicle& vehicle = fleet.vehicles().front();
+    if (reported) {
+      ++cell.counts[static_cast<std::size_t>(Standing::reported)];
+      add_detectors(cell, vehicle.flags);
+      return;
+    }
+    const Quat<double>& q = vehicle.state.q_IB;
+    const auto error =
+        static_cast<double>(angle_between(truth(), normalised(Quat<Wide>{q.w, q.x, q.y, q.z})));
+    ++cell.counts[static_cast<std::size_t>(judge(error, extreme_.turn_rad, false))];
+    if (!(error <= cell.worst_rad)) {
+      cell.worst_rad = error;
+      cell.worst_case = extreme_.name;
     }
   }
-  return cases;
-}
 
-void add(MapCell& cell, const Case& the_case) {
-  runtime::Fleet fleet({the_case.craft}, cell.scheme, StepLimits{});
-  const bool reported = fleet.step(0, kStepNs) > 0;
-  const Quat<double>& q = fleet.vehicles().front().state.q_IB;
-  const auto error = static_cast<double>(
-      angle_between(the_case.truth, normalised(Quat<Wide>{q.w, q.x, q.y, q.z})));
-  const Standing standing = judge(error, cell.turn_rad, reported);
-  ++cell.counts[static_cast<std::size_t>(standing)];
-  if (!reported && !(error <= cell.worst_rad)) {
-    cell.worst_rad = error;
-    cell.worst_case = the_case.name;
+ private:
+  const Quat<Wide>& truth() {
+    if (!truth_) {
+      const double goal = 0.1 * kRoundOff * (1 + extreme_.turn_rad);
+      const StepTruth found = find_step_truth(extreme_.craft, kExtremeStepNs, goal);
+      truth_ = found.q_IB;
+      if (!(found.uncertainty_rad <= uncertainty_rad_)) {
+        uncertainty_rad_ = found.uncertainty_rad;
+      }
+    }
+    return *truth_;
   }
-}
+
+  const Extreme& extreme_;
+  double& uncertainty_rad_;
+  std::optional<Quat<Wide>> truth_;
+};
 
 }  // namespace
 
 Standing judge(double error_rad, double turn_rad, bool reported) {
-  constexpr double kRoundOff = 1e-14, kAccurate = 1e-3, kBounded = 0.1;
   if (reported) {
     return Standing::reported;
   }
   if (error_rad <= kRoundOff * (1 + turn_rad)) {
     return Standing::exact;
   }
-  if (error_rad <= kAccurate * turn_rad) {
+  if (error_rad <= std::min(kAccurate * turn_rad, kBounded)) {
     return Standing::accurate;
   }
   return error_rad <= kBounded ? Standing::bounded : Standing::wrong;  // NaN is wrong
@@ -165,28 +109,39 @@ Standing MapCell::worst() const {
 
 int MapCell::starts() const { return std::accumulate(counts.begin(), counts.end(), 0); }
 
-std::vector<double> default_turns() {
-  return {1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.03, 0.1, 0.3, 1, 2, 5, 10, 20};
-}
-
 StabilityMap map_stability(const std::vector<std::string>& schemes,
-                           const std::vector<double>& turns_rad, const Progress& progress) {
-  StabilityMap map{turns_rad, schemes, {}};
-  for (const std::string& scheme : schemes) {
-    for (const double turn_rad : turns_rad) {
-      map.cells.push_back({scheme, turn_rad, {}, 0, {}});
+                           const std::vector<Extremity>& extremes, const Progress& progress) {
+  StabilityMap map{schemes, {}, 0};
+  double all = 0, done = 0;
+  for (const Extremity& extremity : extremes) {
+    for (const Extremes& column : extremity.columns) {
+      all += static_cast<double>(column.starts.size());
     }
   }
-  const double share = 1.0 / static_cast<double>(turns_rad.size());
-  for (std::size_t column = 0; column < turns_rad.size(); ++column) {
-    const double done = share * static_cast<double>(column);
-    for (const Case& the_case : cases_at(turns_rad[column], progress, done, share)) {
-      for (std::size_t row = 0; row < schemes.size(); ++row) {
-        if (the_case.craft.torques.empty() || !claims_of(schemes[row]).free_only) {
-          add(map.cells[row * turns_rad.size() + column], the_case);
+  for (const Extremity& extremity : extremes) {
+    Chart chart{extremity.title, extremity.x_label, {}, {}};
+    for (const Extremes& column : extremity.columns) {
+      chart.columns.push_back(column.name);
+    }
+    for (const std::string& scheme : schemes) {
+      for (const std::string& column : chart.columns) {
+        chart.cells.push_back({scheme, column, {}, {}, 0, {}});
+      }
+    }
+    for (std::size_t column = 0; column < chart.columns.size(); ++column) {
+      for (const Extreme& extreme : extremity.columns[column].starts) {
+        if (!progress(done++ / all)) {
+          throw Interrupted{};
+        }
+        Trial trial(extreme, map.uncertainty_rad);
+        for (std::size_t row = 0; row < schemes.size(); ++row) {
+          if (extreme.craft.torques.empty() || !claims_of(schemes[row]).free_only) {
+            trial.run(chart.cells[row * chart.columns.size() + column]);
+          }
         }
       }
     }
+    map.charts.push_back(std::move(chart));
   }
   return map;
 }

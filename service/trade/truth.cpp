@@ -3,67 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <variant>
 
 #include <fmt/format.h>
 
 #include "adstar/propagator.hpp"
+#include "service/trade/widened.hpp"
 
 namespace adstar::trade {
 namespace {
-
-using Matrix = Eigen::Matrix<Wide, 3, 3>;
-
-Vec3<Wide> widened(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
-
-Constant<Wide> widened(const Constant<double>& m) { return {m.frame, widened(m.torque_n_m)}; }
-Harmonic<Wide> widened(const Harmonic<double>& m) {
-  return {m.frame, widened(m.amplitude_n_m), widened(m.angular_frequency_rad_s),
-          widened(m.phase_rad)};
-}
-Table<Wide> widened(const Table<double>& m) {
-  Table<Wide> wide{m.frame, m.interpolation, m.after_end, m.time_ns, {}};
-  for (const Vec3<double>& torque : m.torque_n_m) {
-    wide.torque_n_m.push_back(widened(torque));
-  }
-  return wide;
-}
-/// Nobody commands here.
-Commanded<Wide> widened(const Commanded<double>& m) {
-  Commanded<Wide> wide;
-  wide.frame = m.frame;
-  return wide;
-}
-
-std::vector<Torque<Wide>> widened(const std::vector<Torque<double>>& torques) {
-  std::vector<Torque<Wide>> wide;
-  for (const Torque<double>& torque : torques) {
-    wide.push_back(std::visit([](const auto& m) -> Torque<Wide> { return widened(m); }, torque));
-  }
-  return wide;
-}
-
-/// The start as the double-precision run has it, to the bit.
-State<Wide> start_of(const scene::Spacecraft& craft) {
-  const State<double>& s = craft.initial;
-  return make_state(Quat<Wide>{s.q_IB.w, s.q_IB.x, s.q_IB.y, s.q_IB.z}, widened(s.H_I.value()));
-}
 
 TrueState true_state(const RigidBody<Wide>& body, const State<Wide>& state) {
   return {state.q_IB, state.H_I.value(), body.energy(body_momentum(state))};
 }
 
-Matrix inertia(const scene::Spacecraft& craft) { return craft.inertia_body_kg_m2.cast<Wide>(); }
-
 std::vector<TrueState> in_closed_form(const scene::Spacecraft& craft,
                                       const std::vector<std::int64_t>& times_ns) {
-  const RigidBody<Wide> body(inertia(craft));
-  const BodyOf<FreeExact, Wide> prepared(body);
+  const RigidBody<Wide> body = widened_body(craft);
   std::vector<TrueState> states;
   for (const std::int64_t t_ns : times_ns) {
-    State<Wide> state = start_of(craft);
-    FreeExact::step(prepared, state, seconds<Wide>(t_ns), NoTorque{});
-    states.push_back(true_state(body, state));
+    states.push_back(true_state(body, trade::in_closed_form(craft, t_ns)));
   }
   return states;
 }
@@ -73,9 +31,9 @@ std::vector<TrueState> by_small_steps(const scene::Spacecraft& craft,
                                       const std::vector<std::int64_t>& times_ns, std::int64_t h_ns,
                                       const std::function<void(std::int64_t)>& look) {
   constexpr std::int64_t kLookEvery = 256;
-  const RigidBody<Wide> body(inertia(craft));
+  const RigidBody<Wide> body = widened_body(craft);
   const std::vector<Torque<Wide>> torques = widened(craft.torques);
-  State<Wide> state = start_of(craft);
+  State<Wide> state = widened_start(craft);
   std::vector<TrueState> states;
   std::int64_t t_ns = 0, n = 0;
   StepLimits limits;

@@ -228,5 +228,63 @@ TEST(List, nobody_is_exit_code_4) {
       << outcome.err;
 }
 
+/// A StepTiming with a number of its own in every field that is shown.
+adstar_StepTiming some_timing() {
+  adstar_StepTiming timing{};
+  dds::set_text(timing.service, "fake");
+  timing.step = 12'345;
+  timing.time_ns = 12'345'000'000;
+  timing.wake_up_lateness = {{12'345, 3'100, 9'800, 33'000, 120'400}, 200'000, 0};
+  timing.command_phase = {{12'345, 100, 300, 2'100, 8'000}, 0, 0};
+  timing.step_phase = {{12'345, 400, 700, 5'000, 51'000}, 50'000, 1};
+  timing.hand_over_phase = {{12'345, 90, 1'900, 25'000, 60'000}, 0, 0};
+  timing.tick_body = {12'345, 600, 2'900, 27'000, 61'000};
+  timing.late_beats = 5;
+  timing.late_after_work = 2;
+  timing.late_after_sleep = 3;
+  timing.missed_beats = 5;
+  timing.behind_wall_ns = 5'000'000;
+  timing.involuntary_switches = 4;
+  timing.most_commands_waiting = 7;
+  timing.fifo_scheduling = true;
+  return timing;
+}
+
+TEST(Timing, shows_every_part_of_a_beat_against_its_budget) {
+  const auto place = own_place(86);
+  FakeDaemon daemon(place);
+  dds::Writer<adstar_StepTiming> writer(daemon.participant());
+  writer.write(some_timing());
+  Process client(at_place({"timing", "fake", "--samples", "1"}, place));
+  EXPECT_EQ(daemon.serve(client, kDeaf), 0) << client.err();
+  expect_golden("timing", client.out());
+}
+
+TEST(Timing, is_a_line_of_json_for_machines) {
+  const auto place = own_place(87);
+  FakeDaemon daemon(place);
+  dds::Writer<adstar_StepTiming> writer(daemon.participant());
+  writer.write(some_timing());
+  Process client(at_place({"timing", "--json", "--samples", "1"}, place));
+  EXPECT_EQ(daemon.serve(client, kDeaf), 0) << client.err();
+  const Scratch scratch;
+  const std::string file = scratch.write("line.json", client.out());
+  const Outcome python = run({"python3", "-c",
+                              "import json,sys\n"
+                              "t=json.loads(open(sys.argv[1]).read())\n"
+                              "print(t['service'], t['step_phase']['over_budget'], "
+                              "t['wake_up_lateness']['p99_9_ns'], t['behind_wall_ns'])",
+                              file});
+  EXPECT_EQ(python.out, "fake 1 33000 5000000\n") << python.err << client.out();
+}
+
+TEST(Timing, of_a_service_that_is_not_there_is_exit_code_4) {
+  const auto place = own_place(88);
+  const Outcome outcome = run(at_place({"timing", "nobody", "--timeout", "300ms"}, place));
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_EQ(outcome.err.find("adstar timing: no timing of nobody within 300ms on domain 88"), 0U)
+      << outcome.err;
+}
+
 }  // namespace
 }  // namespace adstar::testing

@@ -19,7 +19,8 @@ TEST(Completion, is_a_script_that_bash_accepts) {
 
 TEST(Completion, offers_verbs_first) {
   EXPECT_EQ(completed("adstar ''"),
-            "propagate check trade reproduce torque monitor list completion --help -h --version\n");
+            "propagate check trade reproduce torque monitor list timing completion --help -h "
+            "--version\n");
   EXPECT_EQ(completed("adstar pro"), "propagate\n");
 }
 
@@ -29,7 +30,8 @@ TEST(Completion, offers_the_options_of_the_verb) {
 }
 
 TEST(Completion, offers_schemes_and_formats) {
-  EXPECT_EQ(completed("adstar propagate --scheme coadjoint_m"), "coadjoint_midpoint2\n");
+  EXPECT_EQ(completed("adstar propagate --scheme coadjoint_m"),
+            "coadjoint_midpoint2 coadjoint_midpoint2_float\n");
   EXPECT_EQ(completed("adstar propagate --scheme free"), "free_exact\n");
   EXPECT_EQ(completed("adstar monitor --format j"), "json\n");
 }

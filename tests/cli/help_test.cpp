@@ -15,7 +15,7 @@ TEST_P(HelpOf, the_verb_is_golden_and_has_an_example) {
 
 INSTANTIATE_TEST_SUITE_P(AllVerbs, HelpOf,
                          ::testing::Values("propagate", "check", "trade", "reproduce", "torque",
-                                           "monitor", "list", "completion"),
+                                           "monitor", "list", "timing", "completion"),
                          [](const auto& the) { return std::string(the.param); });
 
 TEST(Help, of_the_program_is_golden) {

@@ -125,7 +125,7 @@ TEST(Propagate, warns_of_spacecraft_that_no_sub_step_could_follow) {
   EXPECT_EQ(
       outcome.err,
       "adstar propagate: 1 of 2 spacecraft (top) turned further in 1s than 2 sub-steps of "
-      "0.75 rad reach, first in the step to 1 s: their rows are not to be trusted; take a shorter "
+      "0.7 rad reach, first in the step to 1 s: their rows are not to be trusted; take a shorter "
       "--step, or raise simulation.substep_limit\n");
 }
 

@@ -61,17 +61,17 @@ Table<double> table(Frame frame, Interpolation interpolation, AfterEnd after_end
   return torque;
 }
 
+template <class Scheme = CoadjointRk4>
 void run(const char* name, const Eigen::Matrix3d& J, const V& omega_B,
          const std::vector<Torque<double>>& torques, std::int64_t h_ns = 10'000'000) {
-  const RigidBody<double> body(J);
+  const BodyOf<Scheme, double> body{RigidBody<double>(J)};
   const Quat<double> q = normalised(Quat<double>{1, -2, 0.5, 3});
   State<double> state = make_state(q, rotate(q, body.momentum(omega_B)));
   Hash hash;
   std::int64_t parts = 0;
   for (std::int64_t n = 0; n < 100'000; ++n) {
-    parts +=
-        advance<CoadjointRk4>(body, state, std::span<const Torque<double>>(torques), n * h_ns, h_ns)
-            .parts;
+    parts += advance<Scheme>(body, state, std::span<const Torque<double>>(torques), n * h_ns, h_ns)
+                 .parts;
     hash.add(state);
   }
   const Vec3<double> H = state.H_I.value();
@@ -133,6 +133,7 @@ int main() {
   run("constant", paper, slow, {Constant<double>{Frame::body, {0.01, -0.02, 0.005}}});
   run("constant, inertial", full, slow, {Constant<double>{Frame::inertial, {0.01, -0.02, 0.005}}});
   run("harmonic", full, slow, {body, inertial});
+  run("damped, sub-stepped", full, fast, {Damping<double>{{0.3, 0.1, 0.2}}, body}, 100'000'000);
   run("tables", full, slow,
       {table(Frame::body, Interpolation::linear, AfterEnd::zero),
        table(Frame::inertial, Interpolation::hold, AfterEnd::hold)});
@@ -142,5 +143,15 @@ int main() {
        table(Frame::inertial, Interpolation::linear, AfterEnd::zero),
        Constant<double>{Frame::body, {0.01, -0.02, 0.005}}},
       50'000'000);
+  run<CoadjointRk4Float>("float stages, free", paper, slow, {});
+  run<CoadjointRk4Float>("float stages, free, full tensor, sub-stepped", full, fast, {},
+                         100'000'000);
+  run<CoadjointRk4Float>("float stages, free, needle", needle, {0.1, 1, 0.2}, {});
+  run<CoadjointMidpoint2Float>("float stages, constant", paper, slow,
+                               {Constant<double>{Frame::body, {0.01, -0.02, 0.005}}});
+  run<CoadjointRk4Float>("float stages, everything", full, slow,
+                         {body, inertial, commands(Frame::body),
+                          table(Frame::inertial, Interpolation::linear, AfterEnd::zero)},
+                         50'000'000);
   return 0;
 }

@@ -20,11 +20,12 @@ struct Worst {
   double defect_first_half = 0, defect_second_half = 0;
 };
 
-Worst run(const RigidBody<double>& body, State<double>& state) {
+template <class Scheme>
+Worst run(const BodyOf<Scheme, double>& body, State<double>& state) {
   Worst worst;
   const double size = norm(state.H_I.value());
   for (int n = 0; n < kSteps; ++n) {
-    advance<CoadjointRk4>(body, state, std::span<const Torque<double>>{}, n * kStepNs, kStepNs);
+    advance<Scheme>(body, state, std::span<const Torque<double>>{}, n * kStepNs, kStepNs);
     const double difference = std::fabs(norm(body_momentum(state)) - size);
     worst.momentum_ulp = std::max(worst.momentum_ulp, difference / test::ulp(size));
     if (n % 64 == 0) {
@@ -37,12 +38,13 @@ Worst run(const RigidBody<double>& body, State<double>& state) {
   return worst;
 }
 
+template <class Scheme = CoadjointRk4>
 void expect_kept(const Eigen::Matrix3d& J, const Vec3<double>& omega_B) {
-  const RigidBody<double> body(J);
+  const BodyOf<Scheme, double> body{RigidBody<double>(J)};
   const Quat<double> q = normalised(Quat<double>{1, 2, -1, 0.5});
   const State<double> start = make_state(q, rotate(q, body.momentum(omega_B)));
   State<double> state = start;
-  const Worst worst = run(body, state);
+  const Worst worst = run<Scheme>(body, state);
   EXPECT_EQ(state.H_I, start.H_I);
   EXPECT_LE(worst.momentum_ulp, 16);
   EXPECT_LT(worst.defect_first_half, 5e-15);
@@ -59,6 +61,12 @@ TEST(LongRun, of_the_papers_body_keeps_momentum_and_rotation) {
 TEST(LongRun, with_a_full_tensor_keeps_momentum_and_rotation) {
   expect_kept(test::rotated_inertia({0.9144, 1.098, 1.66}, normalised(Quat<double>{4, 1, -2, 1})),
               {0.45549, 0.82623, 0.03476});
+}
+
+TEST(LongRun, with_stages_in_float_keeps_momentum_and_rotation) {
+  expect_kept<CoadjointRk4Float>(
+      test::rotated_inertia({0.9144, 1.098, 1.66}, normalised(Quat<double>{4, 1, -2, 1})),
+      {0.45549, 0.82623, 0.03476});
 }
 
 TEST(LongRun, of_a_fast_spinner_keeps_momentum_and_rotation) {

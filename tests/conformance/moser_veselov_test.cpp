@@ -34,8 +34,8 @@ QuadMatrix turned_inertia(const Quad& a, const Quad& b, const Quad& c) {
 
 template <class Scheme>
 class MoserVeselovOf : public testing::Test {};
-using Members =
-    testing::Types<MoserVeselov2, MoserVeselov4, MoserVeselov6, MoserVeselov8, MoserVeselov10>;
+using Members = testing::Types<MoserVeselov2, MoserVeselov4, MoserVeselov6, MoserVeselov8,
+                               MoserVeselov10, MoserVeselov16>;
 TYPED_TEST_SUITE(MoserVeselovOf, Members);
 
 TYPED_TEST(MoserVeselovOf, its_order_is_as_stated_for_every_kind_of_body) {
@@ -78,7 +78,10 @@ TYPED_TEST(MoserVeselovOf, its_order_is_as_stated_for_every_kind_of_body) {
                 1e-29);
       return angle_between(normalised(exact.q_IB()), state.q_IB);
     };
-    EXPECT_NEAR(std::log2(static_cast<double>(error(32) / error(64))), TypeParam::kOrder, 0.15);
+    // Few steps for high orders, or nothing would be left of 113 bits.
+    constexpr int kCoarse = TypeParam::kOrder > 10 ? 8 : 32;
+    EXPECT_NEAR(std::log2(static_cast<double>(error(kCoarse) / error(2 * kCoarse))),
+                TypeParam::kOrder, 0.15);
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "adstar/propagator.hpp"
+#include "tests/support/compiled_schemes.hpp"
 #include "tests/support/count_allocations.hpp"
 #include "tests/support/schemes.hpp"
 
@@ -53,8 +53,7 @@ class StepsOf : public testing::Test {
     State<double> state = make_state(Quat<double>{}, scale * body.momentum(omega_B));
     const std::uint64_t before = allocation_count();
     for (std::int64_t n = 0; n < 200; ++n) {
-      advance<Scheme>(body, state, std::span<const Torque<double>>(torques), n * 10'000'000,
-                      10'000'000);
+      test::Compiled<Scheme>::advance(body, state, torques, n * 10'000'000, 10'000'000);
     }
     return allocation_count() - before;
   }
@@ -79,6 +78,14 @@ std::vector<Torque<double>> every_torque() {
                                        {{0.1, 0, 0}, {0, 0.1, 0}}});
   }
   return torques;
+}
+
+TYPED_TEST(StepsOf, a_damped_body_need_no_heap) {
+  std::vector<Torque<double>> torques = every_torque();
+  torques.emplace_back(Damping<double>{{0.1, 0.2, 0.3}});
+  EXPECT_EQ(this->allocations(torques, {0.4, 0.8, 0.1}), 0u);
+  torques.emplace_back(Damping<double>{{1e5, 1e5, 1e5}});
+  EXPECT_EQ(this->allocations(torques, {0.4, 0.8, 0.1}), 0u) << "too stiff";
 }
 
 TYPED_TEST(StepsOf, a_free_body_need_no_heap) {

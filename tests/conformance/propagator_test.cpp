@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/compiled_schemes.hpp"
 #include "tests/support/plain_motion.hpp"
 #include "tests/support/random_motion.hpp"
 #include "tests/support/schemes.hpp"
@@ -16,6 +18,7 @@
 namespace adstar {
 namespace {
 
+using test::Compiled;
 using test::Generator;
 using test::kEpsilon;
 using test::Quad;
@@ -40,8 +43,7 @@ class Advance : public testing::Test {
   }
   StepReport advance_to(State<double>& state, const std::vector<Torque<double>>& torques,
                         std::int64_t t_ns, std::int64_t h_ns, const StepLimits& limits = {}) const {
-    return advance<Scheme>(body, state, std::span<const Torque<double>>(torques), t_ns, h_ns,
-                           limits);
+    return Compiled<Scheme>::advance(body, state, torques, t_ns, h_ns, limits);
   }
   State<double> run(const std::vector<Torque<double>>& torques, std::int64_t h_ns,
                     int steps) const {
@@ -76,7 +78,9 @@ TYPED_TEST(Advance, delivers_an_inertial_pulse_at_any_phase_against_the_step) {
       ASSERT_LT(norm(change - impulse), 4 * kEpsilon * norm(this->start.H_I.value()))
           << from << " + " << length;
     }
-    ASSERT_LT(norm(end.impulse_I.value() - impulse), 4 * kEpsilon * norm(impulse))
+    // Weights of both signs round what cancels in their sum: Σ|b_i| of dop853 is 13.
+    constexpr bool kDop853 = std::string_view(TypeParam::kName).ends_with("dop853");
+    ASSERT_LT(norm(end.impulse_I.value() - impulse), (kDop853 ? 13 : 4) * kEpsilon * norm(impulse))
         << from << " + " << length;
   }
 }
@@ -106,7 +110,7 @@ TYPED_TEST(Advance, takes_the_free_step_when_every_torque_is_silent) {
   State<double> state = this->start, free = this->start;
   for (int n = 0; n < 100; ++n) {
     this->advance_to(state, silent, n * kStep, kStep);
-    TypeParam::step(this->body, free, 0.01, NoTorque{});
+    Compiled<TypeParam>::step(this->body, free, 0.01, NoTorque{});
   }
   EXPECT_EQ(state, free);
 }
@@ -188,16 +192,18 @@ TYPED_TEST(Advance, splits_a_step_that_turns_too_far) {
       std::sqrt(angular_speed_bound_squared(this->body, body_momentum(state), 0.0));
   const StepReport report = this->advance_to(state, {}, 0, 100 * kMillisecond, {0.5, 64, 64});
   EXPECT_TRUE(report.resolved());
-  EXPECT_EQ(report.parts,
-            static_cast<std::int64_t>(std::ceil(0.1 * bound * TypeParam::kStageReach / 0.5)));
+  const double reach =
+      reach_of<TypeParam>(this->body, body_momentum(this->spinning({0, 0, speed})), 0.0);
+  EXPECT_EQ(report.parts, static_cast<std::int64_t>(std::ceil(0.1 * bound * reach / 0.5)));
 }
 
 TYPED_TEST(Advance, gives_sub_steps_the_bits_of_the_same_steps_taken_one_by_one) {
   State<double> split = this->spinning({3, -20, 8}), single = split;
-  const StepReport report = this->advance_to(split, {}, 0, 128 * kMillisecond, {0.5, 64, 64});
+  const StepReport report = this->advance_to(split, {}, 0, 128 * kMillisecond, {0.25, 64, 64});
   ASSERT_GT(report.parts, 2);
   for (std::int64_t i = 0; i < report.parts; ++i) {
-    TypeParam::step(this->body, single, 0.128 / static_cast<double>(report.parts), NoTorque{});
+    Compiled<TypeParam>::step(this->body, single, 0.128 / static_cast<double>(report.parts),
+                              NoTorque{});
   }
   EXPECT_EQ(split, single);
 }

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include "adstar/propagator.hpp"
+#include "tests/support/compiled_schemes.hpp"
 #include "tests/support/random_motion.hpp"
 #include "tests/support/schemes.hpp"
 
@@ -64,8 +64,20 @@ struct Cell {
   }
 };
 
+/// On the separatrix or beside it, far from the middle axis and near it.
+std::vector<V> directions_beside_separatrix(const Eigen::Vector3d& J) {
+  const double A = (J[1] - J[0]) / J[0], B = (J[2] - J[1]) / J[2];
+  std::vector<V> all;
+  for (const double aside : {0.0, 1e-12, 1e-6, 1e-2}) {
+    for (const double middle : {1e-6, 1e-2, 1.0}) {
+      all.push_back({std::sqrt(B) * (1 + aside), std::sqrt(A + B) * middle, std::sqrt(A)});
+    }
+  }
+  return all;
+}
+
 template <class Scheme>
-Cell run(const Eigen::Vector3d& moments, const V& direction, double turn) {
+Cell run(const Eigen::Vector3d& moments, const V& direction, double turn, int steps = kSteps) {
   const Eigen::Matrix3d J = moments.asDiagonal();
   const RigidBody<double> body(J);
   // The momentum that turns by `turn` in a step of a second.
@@ -75,13 +87,14 @@ Cell run(const Eigen::Vector3d& moments, const V& direction, double turn) {
   State<Wide> truth = make_state(Quat<Wide>{1, 0, 0, 0}, Vec3<Wide>{Pi.x, Pi.y, Pi.z});
   const BodyOf<Scheme, double> prepared(body);
   Cell cell;
-  for (std::int64_t n = 0; n < kSteps && !cell.reported; ++n) {
+  for (std::int64_t n = 0; n < steps && !cell.reported; ++n) {
     cell.reported =
-        !advance<Scheme, double>(prepared, state, {}, n * 1'000'000'000, 1'000'000'000).resolved();
+        !test::Compiled<Scheme>::advance(prepared, state, {}, n * 1'000'000'000, 1'000'000'000)
+             .resolved();
   }
   const BodyOf<FreeExact, Wide> exact{RigidBody<Wide>(J.cast<Wide>())};
-  FreeExact::step(exact, truth, Wide(kSteps), NoTorque{});
-  cell.turned_rad = turn * kSteps;
+  FreeExact::step(exact, truth, Wide(steps), NoTorque{});
+  cell.turned_rad = turn * steps;
   cell.error_rad =
       static_cast<double>(angle_between(normalised(truth.q_IB), normalised(widened(state.q_IB))));
   return cell;
@@ -104,6 +117,22 @@ TYPED_TEST(Stability, of_free_motion_is_never_wrong_in_silence) {
   }
 }
 
+TYPED_TEST(Stability, of_a_step_beside_the_separatrix_is_never_wrong_in_silence) {
+  const std::vector<Eigen::Vector3d> bodies = {
+      {0.8, 1.2, 2}, {0.9144, 1.098, 1.66}, {0.066, 0.85, 0.894}, {1e-4, 1, 1.00005}};
+  for (const Eigen::Vector3d& J : bodies) {
+    for (const V& direction : directions_beside_separatrix(J)) {
+      for (const double turn : {1.0, 3.0, 7.0, 12.0, 20.0}) {
+        const Cell cell = run<TypeParam>(J, direction, turn, 1);
+        EXPECT_FALSE(cell.wrong())
+            << "J = " << J.transpose() << ", Pi along (" << direction.x << ", " << direction.y
+            << ", " << direction.z << "), |omega|h = " << turn << ": off by " << cell.error_rad
+            << " rad";
+      }
+    }
+  }
+}
+
 TYPED_TEST(Stability, of_an_ordinary_body_is_resolved_up_to_three_radians_a_step) {
   for (const V& direction : directions()) {
     for (const double turn : {0.1, 1.0, 3.0}) {
@@ -117,7 +146,8 @@ TYPED_TEST(Stability, of_a_momentum_of_nothing_or_next_to_it_is_rest) {
     const RigidBody<double> body(Eigen::Matrix3d(Eigen::Vector3d(1, 1.5, 2).asDiagonal()));
     State<double> state = make_state(Quat<double>{}, V{tiny, tiny, 0});
     const BodyOf<TypeParam, double> prepared(body);
-    const StepReport report = advance<TypeParam, double>(prepared, state, {}, 0, 1'000'000'000);
+    const StepReport report =
+        test::Compiled<TypeParam>::advance(prepared, state, {}, 0, 1'000'000'000);
     EXPECT_TRUE(report.resolved()) << tiny;
     EXPECT_LT(angle_between(state.q_IB, Quat<double>{}), 1e-15) << tiny;
   }
@@ -131,7 +161,8 @@ TYPED_TEST(Stability, of_a_momentum_too_large_to_square_is_reported) {
   for (const double huge : {1e100, 1e154, 1e200, 1e308}) {
     State<double> state = make_state(Quat<double>{}, V{huge, 0.5 * huge, 0.1 * huge});
     const BodyOf<TypeParam, double> prepared(body);
-    EXPECT_FALSE((advance<TypeParam, double>(prepared, state, {}, 0, 1'000'000'000).resolved()))
+    EXPECT_FALSE(
+        (test::Compiled<TypeParam>::advance(prepared, state, {}, 0, 1'000'000'000).resolved()))
         << huge;
   }
 }

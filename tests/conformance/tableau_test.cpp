@@ -1,11 +1,14 @@
-// Order conditions of every tableau, in exact fractions: one for each rooted tree (Butcher 1963).
+// Order conditions of every tableau, in exact fractions: one for each rooted tree (Butcher 1963). Those of a
+// tableau that is published to 30 digits hold to 1e-27, the products of its largest entries.
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <boost/multiprecision/cpp_int.hpp>
 #include <gtest/gtest.h>
 
+#include "adstar/integrators/dop853.hpp"
 #include "adstar/integrators/tableaus.hpp"
 
 namespace adstar {
@@ -14,6 +17,14 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 
 Rational exact(const Fraction& f) { return Rational(f.numerator, f.denominator); }
+Rational exact(const LongConstant& c) { return Rational(c.high) + Rational(c.low); }
+
+/// How far from exact a condition may be.
+template <class Tableau>
+Rational tolerance() {
+  constexpr bool kRational = std::is_same_v<decltype(Tableau::c), const Fraction[Tableau::kStages]>;
+  return kRational ? Rational(0) : Rational(1) / pow(boost::multiprecision::cpp_int(10), 27);
+}
 
 /// A rooted tree: the subtrees at its root, as indices into the list of all smaller trees,
 /// ascending.
@@ -83,7 +94,7 @@ class TableauOf : public testing::Test {
   }
 };
 
-using Tableaus = testing::Types<Midpoint2, Rk4, Dopri5, Verner6, Fehlberg8>;
+using Tableaus = testing::Types<Midpoint2, Rk4, Dopri5, Verner6, Fehlberg8, Dop853>;
 TYPED_TEST_SUITE(TableauOf, Tableaus);
 
 TYPED_TEST(TableauOf, is_explicit_with_row_sums_equal_to_its_nodes) {
@@ -93,7 +104,7 @@ TYPED_TEST(TableauOf, is_explicit_with_row_sums_equal_to_its_nodes) {
       sum += exact(TypeParam::a[i][j]);
       EXPECT_TRUE(j < i || TypeParam::a[i][j].is_zero()) << "row " << i << ", column " << j;
     }
-    EXPECT_EQ(sum, exact(TypeParam::c[i])) << "row " << i;
+    EXPECT_LE(abs(sum - exact(TypeParam::c[i])), tolerance<TypeParam>()) << "row " << i;
   }
 }
 
@@ -101,7 +112,8 @@ TYPED_TEST(TableauOf, meets_every_condition_of_its_order) {
   const auto trees = trees_up_to(TypeParam::kOrder);
   const auto weights = this->elementary_weights(trees);
   for (std::size_t i = 0; i < trees.size(); ++i) {
-    EXPECT_EQ(this->total(weights[i]), 1 / trees[i].density) << trees[i].name();
+    EXPECT_LE(abs(this->total(weights[i]) - 1 / trees[i].density), tolerance<TypeParam>())
+        << trees[i].name();
   }
 }
 
@@ -110,7 +122,7 @@ TYPED_TEST(TableauOf, claims_no_less_than_its_order) {
   const auto weights = this->elementary_weights(trees);
   bool all = true;
   for (std::size_t i = 0; i < trees.size(); ++i) {
-    all = all && this->total(weights[i]) == 1 / trees[i].density;
+    all = all && abs(this->total(weights[i]) - 1 / trees[i].density) <= tolerance<TypeParam>();
   }
   EXPECT_FALSE(all);
 }
@@ -119,7 +131,7 @@ TYPED_TEST(TableauOf, overshoots_by_the_magnitudes_of_its_widest_stage) {
   Rational reach = 0;
   for (const auto& row : TypeParam::a) {
     Rational sum = 0;
-    for (const Fraction& entry : row) {
+    for (const auto& entry : row) {
       sum += abs(exact(entry));
     }
     reach = std::max(reach, sum);

@@ -125,7 +125,7 @@ TEST_F(BridgeLife, publishes_what_is_left_and_exits_with_0_when_asked_to_stop) {
     ASSERT_TRUE(segment.telemetry.push(sample(step)));
   }
   runtime::StatusRecord last;
-  last.stopped = 1;
+  last.state = static_cast<std::uint64_t>(runtime::RunState::stopped);
   segment.status.write(last);
   bridge_.ask_to_stop();
   EXPECT_EQ(bridge_.exit_code(), 0);

@@ -44,7 +44,7 @@ Torque<double> any_torque(Generator& random, std::int64_t duration_ns) {
   const auto instant = [&] {
     return static_cast<std::int64_t>(uniform(random, 0, static_cast<double>(duration_ns)));
   };
-  switch (static_cast<int>(uniform(random, 0, 5))) {
+  switch (static_cast<int>(uniform(random, 0, 6))) {
     case 0:
       return Constant<double>{Frame::body, any_vector(random, size)};
     case 1:
@@ -52,6 +52,10 @@ Torque<double> any_torque(Generator& random, std::int64_t duration_ns) {
     case 2:
       return Harmonic<double>{any_frame(random), any_vector(random, size), any_vector(random, 3),
                               any_vector(random, 1)};
+    case 5: {
+      const Vec3<double> c = any_vector(random, size);
+      return Damping<double>{{std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)}};
+    }
     case 3: {
       Table<double> table{any_frame(random),
                           one_of(random, 2) ? Interpolation::hold : Interpolation::linear,
@@ -185,45 +189,50 @@ TEST_P(BatchOn, chooses_the_series_of_each_lane_by_its_own_angle) {
   // Neighbours on both sides of each border of so3.hpp, and beyond π, in every lane.
   std::vector<scene::Spacecraft> crafts;
   for (const double border : {kTinyAngleRad, kSmallAngleRad, 2 * std::sqrt(2.5)}) {
-    for (const double side : {1 - 1e-3, 1 + 1e-3, 1 - 1e-15, 1.0, 1 + 1e-15, 0.5, 1.7}) {
+    for (const double side :
+         {1 - 1e-3, 1 + 1e-3, 1 - 1e-7, 1 + 1e-7, 1 - 1e-15, 1.0, 1 + 1e-15, 0.5, 1.7}) {
       scene::Spacecraft craft = make_craft(0);
       craft.inertia_body_kg_m2 = Eigen::Vector3d(1, 1, 1).asDiagonal();
       craft.initial = make_state(Quat<double>{}, Vec3<double>{border * side, 0, 0});
       crafts.push_back(craft);
     }
   }
-  for (int turn = 0; turn < 8; ++turn) {
+  for (int turn = 0; turn < 16; ++turn) {
     std::rotate(crafts.begin(), crafts.begin() + 1, crafts.end());
-    EXPECT_EQ(difference_of(crafts, 20, 1'000'000'000, "coadjoint_rk4", {10.0, 64, 64}), "");
-    EXPECT_EQ(difference_of(crafts, 20, 2'000'000'000, "coadjoint_rk4", {10.0, 64, 64}), "");
+    for (const std::string_view scheme : schemes_with_lanes()) {
+      EXPECT_EQ(difference_of(crafts, 20, 1'000'000'000, scheme, {10.0, 64, 64}), "") << scheme;
+      EXPECT_EQ(difference_of(crafts, 20, 2'000'000'000, scheme, {10.0, 64, 64}), "") << scheme;
+    }
   }
 }
 
 TEST_P(BatchOn, follows_commands_that_come_and_go) {
-  std::vector<scene::Spacecraft> crafts(19, make_craft(2, Frame::inertial));
-  for (std::size_t i = 0; i < crafts.size(); i += 2) {
-    std::get<Commanded<double>>(crafts[i].torques[1]).frame = Frame::body;
-  }
-  Fleet lanes(crafts, "coadjoint_rk4", StepLimits{}, GetParam().lanewise);
-  Fleet alone(crafts, "coadjoint_rk4", StepLimits{}, Lanewise::alone);
-  Generator random(7);
-  for (std::int64_t n = 0; n < 200; ++n) {
-    for (std::size_t i = 0; i < crafts.size(); ++i) {
-      for (std::size_t j = 0; j < 2; ++j) {
-        if (one_of(random, 8)) {
-          Commanded<double> next = std::get<Commanded<double>>(crafts[i].torques[j]);
-          const std::int64_t start = n * 10 * kMs + (one_of(random, 2) ? 3 * kMs : 0);
-          next.window[0] = {start, start + 37 * kMs, any_vector(random, 0.3)};
-          next.intervals = 1;
-          lanes.vehicles()[i].torques[j] = next;
-          alone.vehicles()[i].torques[j] = next;
+  for (const std::string_view scheme : {"coadjoint_rk4", "coadjoint_rk4_float"}) {
+    std::vector<scene::Spacecraft> crafts(19, make_craft(2, Frame::inertial));
+    for (std::size_t i = 0; i < crafts.size(); i += 2) {
+      std::get<Commanded<double>>(crafts[i].torques[1]).frame = Frame::body;
+    }
+    Fleet lanes(crafts, scheme, StepLimits{}, GetParam().lanewise);
+    Fleet alone(crafts, scheme, StepLimits{}, Lanewise::alone);
+    Generator random(7);
+    for (std::int64_t n = 0; n < 200; ++n) {
+      for (std::size_t i = 0; i < crafts.size(); ++i) {
+        for (std::size_t j = 0; j < 2; ++j) {
+          if (one_of(random, 8)) {
+            Commanded<double> next = std::get<Commanded<double>>(crafts[i].torques[j]);
+            const std::int64_t start = n * 10 * kMs + (one_of(random, 2) ? 3 * kMs : 0);
+            next.window[0] = {start, start + 37 * kMs, any_vector(random, 0.3)};
+            next.intervals = 1;
+            lanes.vehicles()[i].torques[j] = next;
+            alone.vehicles()[i].torques[j] = next;
+          }
         }
       }
-    }
-    ASSERT_EQ(lanes.step(n * 10 * kMs, 10 * kMs), alone.step(n * 10 * kMs, 10 * kMs));
-    for (std::size_t i = 0; i < crafts.size(); ++i) {
-      ASSERT_TRUE(same_bits(lanes.vehicles()[i].state, alone.vehicles()[i].state))
-          << "vehicle " << i << " at step " << n;
+      ASSERT_EQ(lanes.step(n * 10 * kMs, 10 * kMs), alone.step(n * 10 * kMs, 10 * kMs));
+      for (std::size_t i = 0; i < crafts.size(); ++i) {
+        ASSERT_TRUE(same_bits(lanes.vehicles()[i].state, alone.vehicles()[i].state))
+            << scheme << ", vehicle " << i << " at step " << n;
+      }
     }
   }
 }
@@ -296,7 +305,9 @@ TEST_P(BatchOn, follows_harmonic_torques_into_every_quadrant_and_past_what_it_re
     }
     crafts.push_back(craft);
   }
-  EXPECT_EQ(difference_of(crafts, 300, 10 * kMs), "");
+  for (const std::string_view scheme : {"coadjoint_rk4", "coadjoint_rk4_float"}) {
+    EXPECT_EQ(difference_of(crafts, 300, 10 * kMs, scheme), "") << scheme;
+  }
 }
 
 TEST(Threads, step_a_fleet_to_the_same_bits_however_many_they_are) {

@@ -79,6 +79,16 @@ TEST(BeatClock, keeps_the_phase_of_the_grid_when_beats_are_missed) {
   EXPECT_EQ(due_ns(clock, 1'000'000), kBase + 1'000'007 * kMs);
 }
 
+TEST(BeatClock, leaves_the_grid_where_it_is_for_beats_that_may_be_caught_up) {
+  BeatClock clock = make_beat_clock(kBase, kMs, 1.0);
+  const std::int64_t now = kBase + 5 * kMs + 7 * kMs + 300'000;
+  EXPECT_EQ(beats_behind(clock, 5, now), 7U);
+  EXPECT_EQ(realign(clock, 5, now, 10), 0U);
+  EXPECT_EQ(due_ns(clock, 12), kBase + 12 * kMs) << "seven beats later it is on time again";
+  EXPECT_EQ(realign(clock, 5, now, 3), 4U) << "three may be caught up, four are missed";
+  EXPECT_EQ(beats_behind(clock, 5, now), 3U);
+}
+
 TEST(BeatClock, keeps_the_phase_of_a_fractional_grid_through_a_million_misses) {
   BeatClock clock = make_beat_clock(0, kMs, 3.0);
   std::uint64_t missed = 0;

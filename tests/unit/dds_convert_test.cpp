@@ -94,9 +94,9 @@ TEST(DdsConvert, a_verdict_becomes_a_status) {
 TEST(DdsConvert, an_enumerator_of_a_newer_program_is_not_taken_for_one_of_ours) {
   adstar_CommandStatus sample{};
   const std::uint32_t eight = 8;
-  const std::uint32_t nine = 9;
+  const std::uint32_t ten = 10;
   std::memcpy(&sample.verdict, &eight, sizeof eight);
-  std::memcpy(&sample.reason, &nine, sizeof nine);
+  std::memcpy(&sample.reason, &ten, sizeof ten);
   EXPECT_FALSE(verdict_of(sample));
   EXPECT_FALSE(reason_of(sample));
 }
@@ -134,7 +134,7 @@ TEST(DdsConvert, motion_goes_to_the_field_of_its_name) {
 
 TEST(DdsConvert, counts_beyond_32_bits_stay_at_the_most) {
   runtime::StatusRecord record;
-  record.stopped = 1;
+  record.state = static_cast<std::uint64_t>(runtime::RunState::stopped);
   record.unresolved_spacecraft = 1ULL << 40;
   record.commands_lost = 1ULL << 40;
   ServiceFacts facts;
@@ -147,6 +147,28 @@ TEST(DdsConvert, counts_beyond_32_bits_stay_at_the_most) {
   EXPECT_EQ(sample.instance_low, 2U);
 }
 
+TEST(DdsConvert, timing_keeps_every_part_of_a_beat_apart) {
+  runtime::TimingRecord record;
+  for (std::size_t i = 0; i < runtime::kPhases; ++i) {
+    const auto n = static_cast<std::int64_t>(i);
+    record.phases[i] = {{i, 10 + n, 20 + n, 30 + n, 40 + n}, 100 + n, 7 + i};
+  }
+  record.late_after_sleep = 3;
+  record.behind_ns = -5;
+  record.account = {1, 2, 4, 1ULL << 40, 6, 7};
+  const adstar_StepTiming sample = to_sample(record, "fly");
+  EXPECT_EQ(sample.wake_up_lateness.took.p50_ns, 10);
+  EXPECT_EQ(sample.command_phase.took.p99_ns, 21);
+  EXPECT_EQ(sample.step_phase.budget_ns, 102);
+  EXPECT_EQ(sample.hand_over_phase.over_budget, 10U);
+  EXPECT_EQ(sample.late_after_sleep, 3U);
+  EXPECT_EQ(sample.behind_wall_ns, -5);
+  EXPECT_EQ(sample.major_page_faults, 2U);
+  EXPECT_EQ(sample.involuntary_switches, 4U);
+  EXPECT_EQ(sample.most_commands_waiting, std::numeric_limits<std::uint32_t>::max());
+  EXPECT_EQ(sample.most_telemetry_waiting, 7U);
+}
+
 TEST(VerdictText, has_a_word_for_each_and_a_sentence_for_each_reason) {
   std::set<std::string> words;
   for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Verdict::refused); ++i) {
@@ -155,11 +177,11 @@ TEST(VerdictText, has_a_word_for_each_and_a_sentence_for_each_reason) {
   EXPECT_EQ(words.size(), 8U);
   EXPECT_FALSE(words.contains("unknown verdict"));
   std::set<std::string> sentences;
-  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Reason::capacity); ++i) {
+  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Reason::halted); ++i) {
     sentences.insert(reason_text(static_cast<Reason>(i)));
     EXPECT_STRNE(reason_name(static_cast<Reason>(i)), "unknown reason");
   }
-  EXPECT_EQ(sentences.size(), 9U);
+  EXPECT_EQ(sentences.size(), 10U);
   EXPECT_FALSE(is_final(Verdict::accepted));
   EXPECT_TRUE(is_final(Verdict::applied));
 }

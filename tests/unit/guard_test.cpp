@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "tests/support/random_motion.hpp"
@@ -193,6 +194,51 @@ TEST(SurelyOnePart, is_not_sure_of_what_is_no_number) {
   EXPECT_FALSE(surely_one_part(body, Vec3<double>{1, 1, 1}, inf, 0.01, 1.0, limits(1, 64)));
 }
 
+/// A scheme that looks at the body half a step apart where the torque is weak.
+struct LongStrider {
+  static constexpr double kStageReach = 1, kWeakReach = 0.5, kSubstepAngleRad = 1;
+  static constexpr int kLeakPower = 0, kOrder = 2;
+  static constexpr Claims kClaims{};
+};
+struct Plain : LongStrider {
+  static constexpr double kWeakReach = kStageReach;
+};
+
+TEST(ReachOf, is_the_weak_one_up_to_a_thousandth_of_the_rate_and_the_stages_beyond) {
+  const RigidBody<double> body = principal({0.5, 0.8, 1});
+  const Vec3<double> Pi{0, 0, 2};  // 2 rad/s
+  EXPECT_EQ(reach_of<LongStrider>(body, Pi, 0.0), 0.5);
+  EXPECT_EQ(reach_of<LongStrider>(body, Pi, 0.999e-3), 0.5);
+  EXPECT_EQ(reach_of<LongStrider>(body, Pi, 1.001e-3), 1);
+  EXPECT_EQ(reach_of<Plain>(body, Pi, 0.0), 1);
+}
+
+TEST(ReachOf, judges_a_torque_by_what_it_does_to_the_lightest_axis) {
+  const RigidBody<double> needle = principal({1e-6, 1, 1});
+  const Vec3<double> across{0, 0.6, 0.8};  // 1 rad/s
+  EXPECT_EQ(reach_of<LongStrider>(needle, across, 0.999e-9), 0.5);
+  EXPECT_EQ(reach_of<LongStrider>(needle, across, 1e-6), 1);
+}
+
+TEST(ReachOf, takes_what_is_no_number_and_a_body_at_rest_under_torque_for_no_weak_one) {
+  const RigidBody<double> body = principal({0.5, 0.8, 1});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(reach_of<LongStrider>(body, Vec3<double>{1, 0, 0}, nan), 1);
+  EXPECT_EQ(reach_of<LongStrider>(body, Vec3<double>{nan, 0, 0}, 1e-9), 1);
+  EXPECT_EQ(reach_of<LongStrider>(body, Vec3<double>{}, 1e-9), 1);
+}
+
+TEST(CountSubsteps, counts_by_the_drift_under_a_weak_torque_and_by_the_step_under_a_strong_one) {
+  const RigidBody<double> body = principal({1, 1, 1});
+  const Vec3<double> Pi{0, 0, 1};
+  const auto parts = [&](double impulse) {
+    return count_parts<LongStrider>(body, Pi, impulse, 5.9, StepLimits{}).parts;
+  };
+  EXPECT_EQ(parts(0.0), 3);
+  EXPECT_EQ(parts(1e-4), 3);
+  EXPECT_GE(parts(1e-2), 6);
+}
+
 TEST(CountSubsteps, counts_the_stages_that_reach_beyond_the_step) {
   EXPECT_EQ(count(1.0, 1.0, 3.5, limits(1, 64)).parts, 4);
 }
@@ -230,6 +276,111 @@ TEST(CountSubsteps, never_calls_a_torque_that_is_no_number_resolved) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(count_substeps(body, Pi, nan, 0.01, 1.0, limits(1, 64)).within_limit);
   EXPECT_FALSE(count_substeps(body, Pi, infinity, 0.01, 1.0, limits(1, 64)).within_limit);
+}
+
+TEST(MotionBounds, are_the_same_for_a_body_of_any_size) {
+  const Vec3<double> Pi{0.3, -1, 0.2};
+  const double expected = angular_speed_bound_squared(principal({0.9, 1.1, 1.6}), Pi, 0.1);
+  for (const double size : {1e-250, 1e-150, 1e-9, 1e9, 1e200, 1e250}) {
+    const RigidBody<double> body = principal(size * Eigen::Vector3d(0.9, 1.1, 1.6));
+    EXPECT_NEAR(angular_speed_bound_squared(body, size * Pi, size * 0.1), expected,
+                1e-13 * expected)
+        << size;
+  }
+}
+
+TEST(GrowthOver, is_the_exponential) {
+  for (const double x : {0.0, 1e-9, 0.1, 1.0, 7.0, 30.0, 100.0}) {
+    EXPECT_NEAR(growth_over(x), std::exp(x), 1e-5 * std::exp(x)) << x;
+  }
+}
+
+MotionBounds<double> moving(const Vec3<double>& Pi, double impulse = 0) {
+  return MotionBounds<double>(principal({0.8, 1.2, 2}), Pi, impulse);
+}
+
+TEST(ErrorGrowth, is_exponential_on_the_separatrix_and_one_far_from_it) {
+  // x_1 (J_2 - J_1)/J_1 = x_3 (J_3 - J_2)/J_3
+  const Vec3<double> on{std::sqrt(0.4), 1, std::sqrt(0.5)};
+  const double P = norm(on), rate = P / 1.2 * std::sqrt(0.5 * 0.4), x = rate * 20;
+  EXPECT_NEAR(error_growth(moving(on), 20.0, Reading::once) / (std::exp(x) / x), 1, 0.01);
+  EXPECT_EQ(error_growth(moving(on), 0.1, Reading::once), 1.0);
+  EXPECT_LT(error_growth(moving({1, 0.01, 0.01}), 20.0, Reading::once), 4);
+}
+
+TEST(ErrorGrowth, is_no_more_than_one_passage_makes_of_it) {
+  double before = std::numeric_limits<double>::infinity();
+  for (const double aside : {1e-9, 1e-6, 1e-3, 1e-1}) {
+    const double growth =
+        error_growth(moving({std::sqrt(0.4) + aside, 1, std::sqrt(0.5)}), 200.0, Reading::once);
+    EXPECT_GT(growth, 0.1 / aside);
+    EXPECT_LT(growth, 10 / aside);
+    EXPECT_LT(growth, before);
+    before = growth;
+  }
+}
+
+TEST(ErrorGrowth, allows_for_a_torque_that_may_lead_to_the_separatrix) {
+  const Vec3<double> beside{std::sqrt(0.4) + 0.1, 1, std::sqrt(0.5)};
+  EXPECT_GT(error_growth(moving(beside, 0.2), 40.0, Reading::once),
+            100 * error_growth(moving(beside), 40.0, Reading::once));
+}
+
+TEST(CountSubsteps, takes_more_parts_beside_the_separatrix_and_says_when_they_do_not_suffice) {
+  const auto body = principal({0.8, 1.2, 2});
+  const Vec3<double> on{std::sqrt(0.4), 1, std::sqrt(0.5)};
+  const Sensitivity fourth{0, 4, Reading::once, 0, 4}, exact{0, 4, Reading::once, 0, 0};
+  const auto parts = [&](double h, const Sensitivity& scheme) {
+    return count_substeps(body, on, 0.0, h, 1.0, limits(0.5, 64), scheme);
+  };
+  EXPECT_EQ(parts(2, fourth).parts, parts(2, exact).parts) << "no growth to speak of";
+  EXPECT_GT(parts(10, fourth).parts, 2 * parts(10, exact).parts);
+  EXPECT_TRUE(parts(10, fourth).within_limit);
+  EXPECT_TRUE(parts(15, exact).within_limit);
+  EXPECT_FALSE(parts(15, fourth).within_limit);
+  EXPECT_EQ(parts(15, fourth).obstacle, Obstacle::separatrix);
+  EXPECT_EQ(parts(1000, exact).obstacle, Obstacle::turn);
+}
+
+TEST(CountSubsteps, counts_a_damping_by_its_fastest_rate) {
+  const auto body = principal({1, 2, 4});
+  const Sensitivity fourth{0, 4, Reading::none, 0, 4};
+  const double rate = decay_rate(body, Vec3<double>{1, 6, 8});
+  EXPECT_EQ(rate, 3);
+  const auto at = [&](double h) {
+    return count_substeps(body, Vec3<double>{}, 0.0, h, 1.0, limits(1, 64), fourth, rate);
+  };
+  EXPECT_EQ(at(0.1).parts, 1);
+  EXPECT_EQ(at(1).parts, 6);
+  EXPECT_EQ(at(100).obstacle, Obstacle::damping);
+  EXPECT_FALSE(at(100).within_limit);
+}
+
+TEST(CountSubsteps, of_a_scheme_that_feels_a_push_looks_at_turn_and_torque_together) {
+  const auto body = principal({1, 1, 1});
+  const Sensitivity pushed{0, 2, Reading::none, 0.35, 0};
+  const auto parts = [&](double impulse) {
+    return count_substeps(body, Vec3<double>{0, 0, 1}, impulse, 1.0, 1.0, limits(1.5, 64), pushed)
+        .parts;
+  };
+  EXPECT_EQ(parts(0), 1);
+  EXPECT_EQ(parts(1e-3), 1) << "a weak torque has the whole angle";
+  EXPECT_GE(parts(0.45), 2);
+  EXPECT_GE(parts(1), 3);
+}
+
+TEST(DecayRate, of_a_body_in_skew_axes_is_never_below_the_largest_eigenvalue) {
+  Generator random(36);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Matrix3d J =
+        test::rotated_inertia(test::moments(random), test::unit_quaternion(random));
+    const Eigen::Vector3d c = to_eigen(test::unit_vector(random)).cwiseAbs();
+    const double largest =
+        (J.inverse() * c.asDiagonal()).eval().eigenvalues().cwiseAbs().maxCoeff();
+    const double rate = decay_rate(RigidBody<double>(J), from_eigen(c));
+    ASSERT_GE(rate, largest * (1 - 1e-12));
+    ASSERT_LE(rate, 3 * largest * (1 + 1e-12));
+  }
 }
 
 }  // namespace

@@ -144,11 +144,11 @@ TEST(SceneLoader, refuses_torques_that_are_none) {
   EXPECT_EQ(refusal(in_torque("model = \"harmnic\"")),
             "scene.toml:7:9: " + at +
                 "model: got \"harmnic\", expected one of constant, harmonic, "
-                "table, commanded; try \"harmonic\"");
+                "table, commanded, damping; try \"harmonic\"");
   EXPECT_EQ(refusal(in_torque("frame = \"body\"")),
             "scene.toml:6:1: " + at +
                 "model: got nothing, expected one of constant, harmonic, table, "
-                "commanded; try model = \"constant\"");
+                "commanded, damping; try model = \"constant\"");
   EXPECT_EQ(refusal(in_torque("model = \"constant\"\ntorque_n_m = [1, 2]")),
             "scene.toml:6:1: " + at +
                 "frame: got nothing, expected one of body, inertial; try frame "
@@ -169,6 +169,18 @@ TEST(SceneLoader, refuses_torques_that_are_none) {
             "scene.toml:8:22: " + at +
                 "max_torque_n_m[1]: got -2, expected a limit of at least 0 N "
                 "m; try 2");
+  EXPECT_EQ(refusal(in_torque("model = \"damping\"\ncoefficient_body_n_m_s_rad = [0.1, -2, 0]")),
+            "scene.toml:8:36: " + at +
+                "coefficient_body_n_m_s_rad[1]: got -2, expected a damping, which takes energy: at "
+                "least 0 N m s/rad; try 2");
+  EXPECT_EQ(refusal(in_torque("model = \"damping\"\nframe = \"inertial\"")),
+            "scene.toml:6:1: " + at +
+                "coefficient_body_n_m_s_rad: got nothing, expected 3 numbers, or { min, max } in a "
+                "fleet; try coefficient_body_n_m_s_rad = [1e-3, 1e-3, 1e-3]\n"
+                "scene.toml:8:1: " +
+                at +
+                "frame: got an unknown key, expected one of model, coefficient_body_n_m_s_rad; try "
+                "removing it");
 }
 
 }  // namespace

@@ -68,6 +68,15 @@ TEST(SceneLoader, reads_the_documented_scene) {
   EXPECT_EQ(sat.actuators[0].max_torque_n_m, (Vec3<double>{1.0, 1.0, 1.0}));
 }
 
+TEST(SceneLoader, reads_a_damping) {
+  const Scene one = parse(
+      in_torque("model = \"damping\"\ncoefficient_body_n_m_s_rad = [1e-3, 0, 2e-3]"), "scene.toml");
+  const auto& torques = one.spacecraft.at(0).torques;
+  ASSERT_EQ(torques.size(), 1U);
+  EXPECT_EQ(std::get<Damping<double>>(torques[0]).coefficient_n_m_s_rad,
+            (Vec3<double>{1e-3, 0, 2e-3}));
+}
+
 TEST(SceneLoader, has_the_documented_defaults) {
   const Scene scene = parse(in_spacecraft(""), "scene.toml");
   EXPECT_EQ(scene.simulation.scheme, "coadjoint_rk4");

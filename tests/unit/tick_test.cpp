@@ -43,7 +43,7 @@ TEST(Tick, takes_as_many_steps_as_the_duration_has) {
   EXPECT_EQ(tick.report().step.load(), 100U);
   EXPECT_EQ(tick.time_ns(), 1000 * kMs);
   EXPECT_EQ(tick.report().tick_body.quantiles().count, 100U);
-  EXPECT_EQ(tick.report().wake_up_lateness.quantiles().count, 0U) << "free: it never sleeps";
+  EXPECT_EQ(tick.report().phase(Phase::wake_up).quantiles().count, 0U) << "free: it never sleeps";
 
   Fleet fleet(tick_scene(0).spacecraft, "coadjoint_rk4", StepLimits{});
   for (std::int64_t n = 0; n < 100; ++n) {
@@ -355,7 +355,7 @@ TEST(Tick, under_the_clock_never_runs_ahead_of_it) {
   // The last of 20 beats is due 19 periods of 4 ms after the first.
   EXPECT_GE(std::chrono::steady_clock::now() - begun, std::chrono::milliseconds(76));
   EXPECT_EQ(tick.report().step.load(), 20U) << "a missed beat delays steps, it drops none";
-  EXPECT_EQ(tick.report().wake_up_lateness.quantiles().count, 20U);
+  EXPECT_EQ(tick.report().phase(Phase::wake_up).quantiles().count, 20U);
 }
 
 }  // namespace

@@ -6,11 +6,12 @@
 // quaternion; every other lane is left untouched for the scalar path (advance()), which does it
 // from the beginning. Cost beside the arithmetic: two or three transposes each way.
 
-#include <limits>
+#include <cstddef>
 
 #include "adstar/batch/fleet_view.hpp"
 #include "adstar/batch/lane_sine.hpp"
 #include "adstar/batch/lanes.hpp"
+#include "adstar/batch/narrow_lanes.hpp"
 #include "adstar/batch/rows.hpp"
 #include "adstar/integrators/guard.hpp"
 #include "adstar/integrators/stage_torque.hpp"
@@ -38,6 +39,51 @@ struct LaneBodies {
   }
   [[gnu::always_inline]] const L* inverse_moments() const { return &largest_inverse_moment; }
 };
+
+template <class Scheme>
+concept FloatStages = requires {
+  requires Scheme::kFloatStages;
+};
+
+/// The same for a scheme with float stages (integrators/coadjoint_float.hpp).
+template <class L>
+struct FloatStageLaneBodies {
+  const LaneBodies<L>& bodies;
+  L moment;
+
+  [[gnu::always_inline]] explicit FloatStageLaneBodies(const LaneBodies<L>& of)
+      : bodies(of), moment(L(1) / of.largest_inverse_moment) {}
+  [[gnu::always_inline]] Vec3<L> angular_velocity(const Vec3<L>& Pi_B) const {
+    return bodies.angular_velocity(Pi_B);
+  }
+  [[gnu::always_inline]] const L* inverse_moments() const { return bodies.inverse_moments(); }
+  [[gnu::always_inline]] const L& smallest_moment() const { return moment; }
+};
+
+template <class L>
+[[gnu::always_inline]] inline LaneBodies<NarrowOf<L>> scaled_inertia(
+    const FloatStageLaneBodies<L>& a, const FloatStageLaneBodies<L>& b) {
+  const auto narrow_entry = [&](L Sym3<L>::*entry) {
+    return Narrower<L>::narrow(a.moment * a.bodies.J_inverse.*entry,
+                               b.moment * b.bodies.J_inverse.*entry);
+  };
+  using N = NarrowOf<L>;
+  LaneBodies<N> scaled;
+  scaled.J_inverse.xx = narrow_entry(&Sym3<L>::xx);
+  scaled.J_inverse.yy = narrow_entry(&Sym3<L>::yy);
+  scaled.J_inverse.zz = narrow_entry(&Sym3<L>::zz);
+  scaled.all_diagonal = a.bodies.all_diagonal && b.bodies.all_diagonal;
+  if (!scaled.all_diagonal) {
+    scaled.J_inverse.xy = narrow_entry(&Sym3<L>::xy);
+    scaled.J_inverse.xz = narrow_entry(&Sym3<L>::xz);
+    scaled.J_inverse.yz = narrow_entry(&Sym3<L>::yz);
+    const auto flag = [](const LaneBodies<L>& one) {
+      return one.all_diagonal ? L(1) : select(one.diagonal, L(1), L(0));
+    };
+    scaled.diagonal = Narrower<L>::narrow(flag(a.bodies), flag(b.bodies)) > N(0.5);
+  }
+  return scaled;
+}
 
 namespace detail {
 
@@ -156,75 +202,143 @@ template <class Arch>
   }
 }
 
-/// Steps the lanes of `wanted`; returns which it took.
-template <class Scheme, Load kLoad, class Arch>
-[[gnu::always_inline]] inline unsigned step_group(const Group<Arch>& group, unsigned wanted,
-                                                  const Work& work) {
+/// What the quick guard asks of a group, and the rest of its state.
+template <Load kLoad, class Arch>
+struct Loaded {
   using L = Lanes<double, Arch>;
-  constexpr unsigned kAll = (1U << L::kWidth) - 1U;
-  const LaneBodies<L> bodies = load_bodies<Arch>(group);
-  const auto H_xy = load_at<4, Arch>(group.state);
-  const auto H_z = load_at<8, Arch>(group.state);
+  LaneBodies<L> bodies;
   State<L> state;
-  state.H_I.x = {H_xy.column[0], H_xy.column[1]};
-  state.H_I.y = {H_xy.column[2], H_xy.column[3]};
-  state.H_I.z = {H_z.column[0], H_z.column[1]};
-  L impulse_bound(0);
-  if constexpr (kLoad != Load::free) {
-    impulse_bound = load_at<0, Arch>(group.torque).column[3];
-  }
-  const L h(work.h_s);
-  const auto one_part =
-      surely_one_part(bodies, state.H_I.value(), impulse_bound, h, L(Scheme::kStageReach),
-                      StepLimits{.substep_angle_rad = work.angle_limit_rad});
-  if (!any(one_part)) {
-    return 0;
-  }
-  const auto q = load_at<0, Arch>(group.state);
-  state.q_IB = {q.column[0], q.column[1], q.column[2], q.column[3]};
-  if constexpr (kLoad == Load::free) {
-    Scheme::step(bodies, state, h, NoTorque{});
-  } else {
-    const auto G_yz = load_at<12, Arch>(group.state);
-    const auto work_sum = load_at<14, Arch>(group.state);
+  typename L::Mask one_part;  ///< one part will do
+
+  [[gnu::always_inline]] Loaded(const Group<Arch>& group, const Work& work, double stage_reach)
+      : bodies(load_bodies<Arch>(group)) {
+    const auto H_xy = load_at<4, Arch>(group.state);
+    const auto H_z = load_at<8, Arch>(group.state);
+    state.H_I.x = {H_xy.column[0], H_xy.column[1]};
+    state.H_I.y = {H_xy.column[2], H_xy.column[3]};
+    state.H_I.z = {H_z.column[0], H_z.column[1]};
     state.impulse_I.x = {H_z.column[2], H_z.column[3]};
-    state.impulse_I.y = {G_yz.column[0], G_yz.column[1]};
-    state.impulse_I.z = {G_yz.column[2], G_yz.column[3]};
-    state.work = {work_sum.column[2], work_sum.column[3]};
-    const auto body_start = load_at<0, Arch>(group.torque);
-    const Vec3<L> start_B{body_start.column[0], body_start.column[1], body_start.column[2]};
-    if constexpr (kLoad == Load::body) {
-      Scheme::step(bodies, state, h, body_torque([&](const Stage<L>&) {
-                     return TorqueSample<L>{start_B, {}};
-                   }));
-    } else {
-      const auto body_slope = load_at<4, Arch>(group.torque);
-      const auto inertial_start = load_at<8, Arch>(group.torque);
-      const auto inertial_slope = load_at<12, Arch>(group.torque);
-      const Vec3<L> slope_B{body_slope.column[0], body_slope.column[1], body_slope.column[2]};
-      const Vec3<L> start_I{inertial_start.column[0], inertial_start.column[1],
-                            inertial_start.column[2]};
-      const Vec3<L> slope_I{inertial_slope.column[0], inertial_slope.column[1],
-                            inertial_slope.column[2]};
-      Scheme::step(
-          bodies, state, h, mixed_torque([&](const Stage<L>& stage) {
-            TorqueSample<L> tau{start_B + stage.time_s * slope_B, start_I + stage.time_s * slope_I};
-            if constexpr (kLoad == Load::varying) {
-              add_harmonics<Arch>(tau, group, work.most_harmonics, L(work.t_s) + stage.time_s);
-            }
-            return tau;
-          }));
+    L impulse_bound(0);
+    if constexpr (kLoad != Load::free) {
+      impulse_bound = load_at<0, Arch>(group.torque).column[3];
+    }
+    one_part =
+        surely_one_part(bodies, state.H_I.value(), impulse_bound, L(work.h_s), L(stage_reach),
+                        StepLimits{.substep_angle_rad = work.angle_limit_rad});
+  }
+
+  [[gnu::always_inline]] void load_rest(const Group<Arch>& group) {
+    const auto q = load_at<0, Arch>(group.state);
+    state.q_IB = {q.column[0], q.column[1], q.column[2], q.column[3]};
+    if constexpr (kLoad != Load::free) {
+      const auto G_yz = load_at<12, Arch>(group.state);
+      const auto work_sum = load_at<14, Arch>(group.state);
+      state.impulse_I.y = {G_yz.column[0], G_yz.column[1]};
+      state.impulse_I.z = {G_yz.column[2], G_yz.column[3]};
+      state.work = {work_sum.column[2], work_sum.column[3]};
     }
   }
-  const L q_squared = squared_norm(state.q_IB);
-  const auto taken = one_part & (q_squared > L(0.5)) & (q_squared < L(2));
+};
+
+template <std::size_t Offset, class Arch>
+[[gnu::always_inline]] inline Vec3<Lanes<double, Arch>> load_vector(const double* const* from) {
+  const auto rows = load_at<Offset, Arch>(from);
+  return {rows.column[0], rows.column[1], rows.column[2]};
+}
+
+/// The torques of a group.
+template <Load kLoad, class Arch>
+struct LoadedTorque {
+  using L = Lanes<double, Arch>;
+  const Group<Arch>& group;
+  const Work& work;
+  Vec3<L> start_B, slope_B, start_I, slope_I;
+
+  [[gnu::always_inline]] LoadedTorque(const Group<Arch>& from, const Work& of)
+      : group(from), work(of) {
+    if constexpr (kLoad != Load::free) {
+      start_B = load_vector<0, Arch>(group.torque);
+    }
+    if constexpr (kLoad != Load::free && kLoad != Load::body) {
+      slope_B = load_vector<4, Arch>(group.torque);
+      start_I = load_vector<8, Arch>(group.torque);
+      slope_I = load_vector<12, Arch>(group.torque);
+    }
+  }
+
+  /// As a step asks for them; nothing is copied.
+  [[gnu::always_inline]] auto for_step() const {
+    if constexpr (kLoad == Load::free) {
+      return NoTorque{};
+    } else if constexpr (kLoad == Load::body) {
+      return body_torque([this](const Stage<L>&) {
+        // Number by number: a copy of the whole goes through memory in smaller pieces, and waits.
+        return TorqueSample<L>{{start_B.x, start_B.y, start_B.z}, {}};
+      });
+    } else {
+      return mixed_torque([this](const Stage<L>& stage) {
+        const L& t = stage.time_s;
+        TorqueSample<L> tau{start_B + t * slope_B, start_I + t * slope_I};
+        if constexpr (kLoad == Load::varying) {
+          add_harmonics<Arch>(tau, group, work.most_harmonics, L(work.t_s) + t);
+        }
+        return tau;
+      });
+    }
+  }
+};
+
+/// Stores those of `wanted` that the step has taken; returns which.
+template <Load kLoad, class Arch>
+[[gnu::always_inline]] inline unsigned store_taken(const Group<Arch>& group, unsigned wanted,
+                                                   const Loaded<kLoad, Arch>& after) {
+  using L = Lanes<double, Arch>;
+  constexpr unsigned kAll = (1U << L::kWidth) - 1U;
+  const L q_squared = squared_norm(after.state.q_IB);
+  const auto taken = after.one_part & (q_squared > L(0.5)) & (q_squared < L(2));
   const unsigned which = all(taken) ? wanted : wanted & bits_of<Arch>(taken);
   if (which == kAll) {
-    store_state<kLoad, Arch>(group, kAll, state);
+    store_state<kLoad, Arch>(group, kAll, after.state);
   } else {
-    store_state<kLoad, Arch>(group, which, state);
+    store_state<kLoad, Arch>(group, which, after.state);
   }
   return which;
+}
+
+/// Steps the lanes of `wanted`; returns which it took.
+template <class Scheme, Load kLoad, class Arch>
+[[gnu::always_inline]] inline unsigned step_groups(const Group<Arch> (&group)[1], unsigned wanted,
+                                                   const Work& work) {
+  using L = Lanes<double, Arch>;
+  Loaded<kLoad, Arch> loaded(group[0], work, Scheme::kStageReach);
+  if (!any(loaded.one_part)) {
+    return 0;
+  }
+  loaded.load_rest(group[0]);
+  const LoadedTorque<kLoad, Arch> torque(group[0], work);
+  Scheme::step(loaded.bodies, loaded.state, L(work.h_s), torque.for_step());
+  return store_taken<kLoad, Arch>(group[0], wanted, loaded);
+}
+
+/// Two groups whose stages share a register.
+template <class Scheme, Load kLoad, class Arch>
+[[gnu::always_inline]] inline unsigned step_groups(const Group<Arch> (&group)[2], unsigned wanted,
+                                                   const Work& work) {
+  using L = Lanes<double, Arch>;
+  Loaded<kLoad, Arch> low(group[0], work, Scheme::kStageReach);
+  Loaded<kLoad, Arch> high(group[1], work, Scheme::kStageReach);
+  if (!any(low.one_part) && !any(high.one_part)) {
+    return 0;
+  }
+  low.load_rest(group[0]);
+  high.load_rest(group[1]);
+  const FloatStageLaneBodies<L> low_bodies(low.bodies), high_bodies(high.bodies);
+  const LoadedTorque<kLoad, Arch> low_torque(group[0], work), high_torque(group[1], work);
+  Scheme::step(low_bodies, low.state, low_torque.for_step(), high_bodies, high.state,
+               high_torque.for_step(), L(work.h_s));
+  constexpr unsigned kLow = (1U << L::kWidth) - 1U;
+  const unsigned taken = store_taken<kLoad, Arch>(group[0], wanted & kLow, low);
+  return taken | store_taken<kLoad, Arch>(group[1], wanted >> L::kWidth, high) << L::kWidth;
 }
 
 }  // namespace detail
@@ -232,26 +346,30 @@ template <class Scheme, Load kLoad, class Arch>
 /// Steps the members that `work` lists; returns how many of them it left.
 template <class Scheme, detail::Load kLoad, class Arch>
 [[gnu::flatten]] std::size_t step_members(const FleetView& fleet, const Work& work) noexcept {
-  constexpr std::size_t kWidth = Lanes<double, Arch>::kWidth;
+  constexpr std::size_t kGroups = FloatStages<Scheme> ? 2 : 1;
+  constexpr std::size_t kGroupWidth = Lanes<double, Arch>::kWidth;
+  constexpr std::size_t kWidth = kGroups * kGroupWidth;
   std::size_t left = 0;
   for (std::size_t first = 0; first < work.count; first += kWidth) {
     const std::size_t lanes = work.count - first < kWidth ? work.count - first : kWidth;
-    detail::Group<Arch> group;
+    detail::Group<Arch> group[kGroups];
     for (std::size_t i = 0; i < kWidth; ++i) {
       // Lanes past the end repeat the last one; what they come to is not stored.
       const std::size_t entry = first + (i < lanes ? i : lanes - 1);
       const std::uint32_t member = work.members[entry];
-      group.state[i] = fleet.states + member * fleet.stride;
-      group.body[i] = &fleet.bodies[member].J_inverse_xx;
+      detail::Group<Arch>& its = group[i / kGroupWidth];
+      const std::size_t lane = i % kGroupWidth;
+      its.state[lane] = fleet.states + member * fleet.stride;
+      its.body[lane] = &fleet.bodies[member].J_inverse_xx;
       if constexpr (kLoad != detail::Load::free) {
-        group.torque[i] = work.torques[entry].body_start;
+        its.torque[lane] = work.torques[entry].body_start;
       }
       if constexpr (kLoad == detail::Load::varying) {
-        group.harmonics[i] = &work.harmonics[entry];
+        its.harmonics[lane] = &work.harmonics[entry];
       }
     }
     const unsigned wanted = (1U << lanes) - 1U;
-    const unsigned taken = detail::step_group<Scheme, kLoad, Arch>(group, wanted, work);
+    const unsigned taken = detail::step_groups<Scheme, kLoad, Arch>(group, wanted, work);
     if (taken != wanted) {
       for (std::size_t i = 0; i < lanes; ++i) {
         if ((taken >> i & 1U) == 0) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adstar/integrators/coadjoint.hpp"
+#include "adstar/integrators/coadjoint_float.hpp"
 #include "adstar/integrators/free_exact.hpp"
 #include "adstar/integrators/guard.hpp"
 #include "adstar/integrators/lie_newmark.hpp"
@@ -21,10 +22,11 @@ namespace adstar {
 
 using Schemes =
     std::tuple<CoadjointRk4, CoadjointMidpoint2, CoadjointDopri5, CoadjointVerner6,
-               CoadjointFehlberg8, QuaternionRk4, ProjectedRk4, ProjectedDopri5, ProjectedVerner6,
-               ProjectedFehlberg8, Rkmk4, LieNewmark, FreeExact, MoserVeselov2, MoserVeselov4,
-               MoserVeselov6, MoserVeselov8, MoserVeselov10, SplittingStrang, SplittingBlanesMoan4,
-               SplittingMcLachlan84, SplittingMcLachlan102>;
+               CoadjointFehlberg8, CoadjointDop853, CoadjointRk4Float, CoadjointMidpoint2Float,
+               QuaternionRk4, ProjectedRk4, ProjectedDopri5, ProjectedVerner6, ProjectedFehlberg8,
+               ProjectedDop853, Rkmk4, LieNewmark, FreeExact, MoserVeselov2, MoserVeselov4,
+               MoserVeselov6, MoserVeselov8, MoserVeselov10, MoserVeselov16, SplittingStrang,
+               SplittingBlanesMoan4, SplittingMcLachlan84, SplittingMcLachlan102>;
 
 inline std::vector<std::string_view> scheme_names() {
   return []<std::size_t... I>(std::index_sequence<I...>) {

@@ -32,6 +32,7 @@
 #include <utility>
 
 #include "adstar/bodies/rigid_body.hpp"
+#include "adstar/integrators/dop853.hpp"
 #include "adstar/integrators/scheme.hpp"
 #include "adstar/integrators/stage_torque.hpp"
 #include "adstar/integrators/tableaus.hpp"
@@ -45,9 +46,10 @@ struct Coadjoint {
   static constexpr int kOrder = Tableau::kOrder;
   static constexpr double kStageReach = 1;
   static constexpr double kSubstepAngleRad = kOrder >= 8   ? 1.5
+                                             : kOrder >= 6 ? 1.1
                                              : kOrder >= 5 ? 1.25
-                                             : kOrder == 4 ? 0.75
-                                                           : 0.1;
+                                             : kOrder == 4 ? 0.7
+                                                           : 0.075;
   static constexpr int kLeakPower = 1;  ///< stages read Pi_B through their own attitudes
   static constexpr Claims kClaims{.exact_momentum = true};
   /// step() also takes several bodies side by side.
@@ -186,8 +188,8 @@ struct Coadjoint {
     return sum;
   }
 
-  template <bool Present, class T>
-  [[gnu::always_inline]] static void accumulate(Vec3<T>& sum, const T& h, const Fraction& weight,
+  template <bool Present, class T, class Weight>
+  [[gnu::always_inline]] static void accumulate(Vec3<T>& sum, const T& h, const Weight& weight,
                                                 const Vec3<T>& k) {
     if constexpr (Present) {
       sum = sum + (h * weight.template as<T>()) * k;
@@ -214,6 +216,10 @@ struct CoadjointVerner6 : Coadjoint<Verner6> {
 
 struct CoadjointFehlberg8 : Coadjoint<Fehlberg8> {
   static constexpr const char* kName = "coadjoint_fehlberg8";
+};
+
+struct CoadjointDop853 : Coadjoint<Dop853> {
+  static constexpr const char* kName = "coadjoint_dop853";
 };
 
 }  // namespace adstar

@@ -6,21 +6,23 @@
 //   Σ b_i (c_i - ½)² = 1/12,  Σ a_i (d_i - ½)² = 1/12     order 4
 //   Σ b_i (c_i - ½)^{2k} = 1/((2k + 1) 4^k), k < n        the kicks are a quadrature of order 2n
 // Where B is smaller than A by ε, the last leaves ε h^{2n} + ε² h^p: "order (2n, p)" (McLachlan 1995;
-// Laskar and Robutel 2001). Each constant is a double and the double nearest to what is left: 106 bits
-// (tests/conformance/splitting_test.cpp holds all conditions to 1e-31).
+// Laskar and Robutel 2001). tests/conformance/splitting_test.cpp holds all conditions to 1e-31.
+
+#include <algorithm>
+
+#include "adstar/integrators/constants.hpp"
 
 namespace adstar {
 
-/// high + low: 106 bits of a constant, for every scalar its own rounding.
-struct LongConstant {
-  double high, low;
-
-  template <class T>
-  constexpr T as() const {
-    return T(high) + T(low);
+/// The longest drift of a composition, in steps.
+template <class Composition>
+constexpr double longest_drift() {
+  double longest = 0;
+  for (const LongConstant& a : Composition::a) {
+    longest = std::max(longest, a.high < 0 ? -a.high : a.high);
   }
-  constexpr bool is_zero() const { return high == 0; }
-};
+  return longest;
+}
 
 /// Strang 1968.
 struct Strang {

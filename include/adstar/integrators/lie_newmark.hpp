@@ -29,7 +29,7 @@ struct LieNewmark {
   static constexpr const char* kName = "lie_newmark";
   static constexpr int kOrder = 2;
   static constexpr double kStageReach = 1;
-  static constexpr double kSubstepAngleRad = 0.1;
+  static constexpr double kSubstepAngleRad = 0.075;
   static constexpr int kLeakPower = 0;
   static constexpr Claims kClaims{};
   static constexpr int kIterations = 20;

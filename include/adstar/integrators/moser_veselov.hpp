@@ -1,6 +1,6 @@
 #pragma once
 // The preprocessed discrete Moser-Veselov step of a free body: momentum and energy kept to
-// round-off, at any of the orders 2, 4, 6, 8, 10 (Moser and Veselov 1991; McLachlan and Zanna 2005;
+// round-off, at any of the even orders 2 to 16 (Moser and Veselov 1991; McLachlan and Zanna 2005;
 // Hairer and Vilmart 2006).
 //
 // With y = Pi_B in principal axes, ρ the unit quaternion of the step's rotation Ω, and the modified
@@ -158,7 +158,7 @@ class MoserVeselovBody : public RigidBody<T> {
 
 template <int Order>
 struct MoserVeselov {
-  static_assert(Order >= 2 && Order <= 10 && Order % 2 == 0);
+  static_assert(Order >= 2 && Order <= 16 && Order % 2 == 0);
   static constexpr int kOrder = Order;
   static constexpr double kStageReach = Order == 2 ? 1.25 : 1;
   static constexpr double kSubstepAngleRad = Order == 2   ? 0.075
@@ -206,6 +206,9 @@ struct MoserVeselov8 : MoserVeselov<8> {
 };
 struct MoserVeselov10 : MoserVeselov<10> {
   static constexpr const char* kName = "moser_veselov10";
+};
+struct MoserVeselov16 : MoserVeselov<16> {
+  static constexpr const char* kName = "moser_veselov16";
 };
 
 }  // namespace adstar

@@ -24,6 +24,7 @@
 #include <utility>
 
 #include "adstar/bodies/rigid_body.hpp"
+#include "adstar/integrators/dop853.hpp"
 #include "adstar/integrators/scheme.hpp"
 #include "adstar/integrators/stage_torque.hpp"
 #include "adstar/integrators/tableaus.hpp"
@@ -75,13 +76,14 @@ template <class T>
   return v + length.twice_inverse_squared * (q.w * t + cross(u, t));
 }
 
-/// Pi × J⁻¹ Pi, on principal axes as products of two components.
+/// Pi × J⁻¹ Pi, on principal axes as products of two components; each is made a rate first, as no square
+/// of 1e-200 or 1e200 N m s can be written.
 template <class T>
 [[gnu::always_inline]] inline Vec3<T> gyroscopic(const RigidBody<T>& body, const Vec3<T>& Pi,
                                                  const Vec3<T>& omega_B) {
   if (body.on_principal_axes()) {
     const Vec3<T> a = body.inverse_diagonal();
-    return {(a.z - a.y) * (Pi.y * Pi.z), (a.x - a.z) * (Pi.z * Pi.x), (a.y - a.x) * (Pi.x * Pi.y)};
+    return {((a.z - a.y) * Pi.y) * Pi.z, ((a.x - a.z) * Pi.z) * Pi.x, ((a.y - a.x) * Pi.x) * Pi.y};
   }
   return cross(Pi, omega_B);
 }
@@ -189,15 +191,15 @@ struct QuaternionRk {
     (add<!Tableau::a[I][J].is_zero()>(Pi, h, Tableau::a[I][J], k.Pi[J]), ...);
   }
 
-  template <bool Present, class T>
-  [[gnu::always_inline]] static void add(Vec3<T>& sum, const T& h, const Fraction& weight,
+  template <bool Present, class T, class Weight>
+  [[gnu::always_inline]] static void add(Vec3<T>& sum, const T& h, const Weight& weight,
                                          const Vec3<T>& k) {
     if constexpr (Present) {
       sum = sum + (h * weight.template as<T>()) * k;
     }
   }
-  template <bool Present, class T>
-  [[gnu::always_inline]] static void add(Quat<T>& sum, const T& h, const Fraction& weight,
+  template <bool Present, class T, class Weight>
+  [[gnu::always_inline]] static void add(Quat<T>& sum, const T& h, const Weight& weight,
                                          const Quat<T>& k) {
     if constexpr (Present) {
       const T w = h * weight.template as<T>();
@@ -220,6 +222,9 @@ struct ProjectedVerner6 : QuaternionRk<Verner6, true> {
 };
 struct ProjectedFehlberg8 : QuaternionRk<Fehlberg8, true> {
   static constexpr const char* kName = "projected_fehlberg8";
+};
+struct ProjectedDop853 : QuaternionRk<Dop853, true> {
+  static constexpr const char* kName = "projected_dop853";
 };
 
 }  // namespace adstar

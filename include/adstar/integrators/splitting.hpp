@@ -34,6 +34,7 @@ struct Splitting {
   static constexpr int kOrder = Composition::kOrder;
   static constexpr int kFreeOrder = FreeScheme::kOrder;  ///< without torque
   static constexpr double kStageReach = FreeScheme::kStageReach;
+  static constexpr double kWeakReach = FreeScheme::kStageReach * longest_drift<Composition>();
   static constexpr double kSubstepAngleRad = FreeScheme::kSubstepAngleRad;
   static constexpr int kLeakPower = FreeScheme::kLeakPower;
   static constexpr Claims kClaims{.exact_momentum = true,
@@ -158,16 +159,17 @@ struct Splitting {
   }
 };
 
-struct SplittingStrang : Splitting<Strang, MoserVeselov10> {
+struct SplittingStrang : Splitting<Strang, MoserVeselov16> {
   static constexpr const char* kName = "splitting_strang";
+  static constexpr double kPushLimit = 0.2;  ///< guard.hpp; those of order 4 and (10, 2) need none
 };
-struct SplittingBlanesMoan4 : Splitting<BlanesMoan4, MoserVeselov10> {
+struct SplittingBlanesMoan4 : Splitting<BlanesMoan4, MoserVeselov16> {
   static constexpr const char* kName = "splitting_blanes_moan4";
 };
-struct SplittingMcLachlan84 : Splitting<McLachlan84, MoserVeselov10> {
+struct SplittingMcLachlan84 : Splitting<McLachlan84, MoserVeselov16> {
   static constexpr const char* kName = "splitting_mclachlan84";
 };
-struct SplittingMcLachlan102 : Splitting<McLachlan102, MoserVeselov10> {
+struct SplittingMcLachlan102 : Splitting<McLachlan102, MoserVeselov16> {
   static constexpr const char* kName = "splitting_mclachlan102";
 };
 

@@ -1,20 +1,9 @@
 #pragma once
-// Explicit Butcher tableaus, as exact fractions so that every scalar gets its own rounding of them.
+// Explicit Butcher tableaus in exact fractions; dop853.hpp has the one that is not rational.
 
-#include <cstdint>
+#include "adstar/integrators/constants.hpp"
 
 namespace adstar {
-
-struct Fraction {
-  std::int64_t numerator = 0;
-  std::int64_t denominator = 1;
-
-  template <class T>
-  constexpr T as() const {
-    return T(numerator) / T(denominator);
-  }
-  constexpr bool is_zero() const { return numerator == 0; }
-};
 
 /// The explicit midpoint rule (Runge 1895).
 struct Midpoint2 {
@@ -112,8 +101,8 @@ constexpr double stage_overshoot() {
   double reach = 0;
   for (const auto& row : Tableau::a) {
     double sum = 0;
-    for (const Fraction& entry : row) {
-      const double value = entry.as<double>();
+    for (const auto& entry : row) {
+      const double value = entry.template as<double>();
       sum += value < 0 ? -value : value;
     }
     reach = sum > reach ? sum : reach;

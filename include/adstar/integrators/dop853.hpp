@@ -1,0 +1,110 @@
+#pragma once
+// Eighth order on twelve stages (Dormand and Prince; Hairer, Nørsett, Wanner 1993, section II.5, DOP853),
+// without its error estimates: its error is about a fifth of Fehlberg's at the same step.
+//
+// The nodes c_2 to c_5 lie in Q(√6): c_4 = (6 - √6)/30, c_5 = (6 + √6)/30, c_3 = ⅔ c_4, c_2 = ⅔ c_3. The
+// entries are published to 30 digits, so the conditions of order 8 hold to 1e-27, not exactly
+// (tests/conformance/tableau_test.cpp).
+
+#include "adstar/integrators/constants.hpp"
+
+namespace adstar {
+
+struct Dop853 {
+  static constexpr int kStages = 12;
+  static constexpr int kOrder = 8;
+  static constexpr LongConstant a[kStages][kStages] = {
+      {},
+      {{0x1.aee6838dae63ap-5, 0x1.49e8bf452b1d8p-59}},
+      {{0x1.432ce2aa42cacp-6, -0x1.0891708c1fa9ep-60},
+       {0x1.e4c353ff64302p-5, -0x1.8cda28d22f7edp-59}},
+      {{0x1.e4c353ff64302p-6, -0x1.8cda28d22f6e9p-60},
+       {},
+       {0x1.6b927eff8b241p-4, 0x1.acb8c2c4b8c9fp-59}},
+      {{0x1.ee50d7ecde9fap-3, -0x1.e8c6b2878c83ap-58},
+       {},
+       {-0x1.c4e3ab5ad1507p-1, 0x1.02da922036bc9p-57},
+       {0x1.d983d7ac79ef5p-1, 0x1.84c2a8597431ep-57}},
+      {{0x1.2f684bda12f68p-5, 0x1.2f684bda12f68p-59},
+       {},
+       {},
+       {0x1.5ddb63bdb6d36p-3, 0x1.2da30a690b4e1p-57},
+       {0x1.00f533f66f19ap-3, 0x1.312d8d4b1a92fp-57}},
+      {{0x1.3000000000000p-5, 0},
+       {},
+       {},
+       {0x1.5cad30f3347edp-3, -0x1.2c4b7fbf2f741p-57},
+       {0x1.ed4b3c332e04dp-5, 0x1.625bfdf97c01cp-60},
+       {-0x1.2000000000000p-6, 0}},
+      {{0x1.2fdb8fee78792p-5, 0x1.f97d6a89c33c4p-59},
+       {},
+       {},
+       {0x1.5cf23f6595d72p-3, 0x1.de6740d98712ep-57},
+       {0x1.b758640dea698p-4, 0x1.6023cecd9bcafp-58},
+       {-0x1.f5fcc20fcd32fp-7, 0x1.502cd26652e20p-62},
+       {0x1.0f1d92efb0b71p-7, -0x1.b0297d83f482cp-62}},
+      {{0x1.3f8b78b985813p-1, 0x1.cbd1f3fe3475dp-56},
+       {},
+       {},
+       {-0x1.ae31bacc6bc8ap+1, 0x1.646785b0ccc4ep-53},
+       {-0x1.bc873f08e11f9p-1, -0x1.56fa8c83a2b28p-55},
+       {0x1.b9793d88d1855p+4, -0x1.7347891636f51p-50},
+       {0x1.42770f892ad69p+4, -0x1.14bcfba1bcb00p-51},
+       {-0x1.5beb4865c42f9p+5, 0x1.17c5a8b004d7bp-49}},
+      {{0x1.e9205e321b655p-2, 0x1.da8765a02b855p-56},
+       {},
+       {},
+       {-0x1.3e7a8a34bd27fp+1, 0x1.5f3e5103b2707p-54},
+       {-0x1.2e3a9968c93c8p-1, -0x1.937048047864fp-56},
+       {0x1.53ae4a6d655eep+4, 0x1.54d177ee94280p-50},
+       {0x1.e8ef7b5f258b8p+3, 0x1.74fa61b106282p-53},
+       {-0x1.0a4e418d711b9p+5, 0x1.c6b3659fafa89p-52},
+       {-0x1.4d1b3d9b4a876p-6, 0x1.c43a98dd4eeaep-61}},
+      {{-0x1.dfd121f1d399bp-1, -0x1.eab6af3cdeb53p-56},
+       {},
+       {},
+       {0x1.4bed869fb0b9dp+2, -0x1.9c674c296114fp-54},
+       {0x1.1768702792ea9p+0, 0x1.4c60ba4e94437p-54},
+       {-0x1.04cb0e2110c1cp+3, 0x1.82f497adcfefep-51},
+       {-0x1.2852305e975a8p+4, -0x1.c18d03f353f69p-51},
+       {0x1.6bd4f06cb863ap+4, -0x1.fb0ffff8f0a42p-51},
+       {0x1.3f2e777cf109dp+1, 0x1.e40f9136400dap-55},
+       {-0x1.85fc60d2b572cp+1, 0x1.40aec6eefc536p-53}},
+      {{0x1.22fbd3b09fcdcp+1, 0x1.882aa196f14f4p-53},
+       {},
+       {},
+       {-0x1.511a963cafe55p+3, -0x1.aa9f8e19e442dp-51},
+       {-0x1.001c935ac72acp+1, -0x1.04634c747eabap-55},
+       {-0x1.1f57c8eff3006p+4, 0x1.b84bd43f73cabp-52},
+       {0x1.bf2ea18b58a01p+4, 0x1.116526e06705bp-53},
+       {-0x1.6df3a7d1cec13p+1, -0x1.882b54e38a7fdp-53},
+       {-0x1.1bee71a9f33a9p+3, -0x1.02ea724ea136bp-52},
+       {0x1.8b89c42c81861p+3, -0x1.2f6a77718a8b2p-53},
+       {0x1.496ac6253e202p-1, -0x1.8496d1fcdfe28p-55}}};
+  static constexpr LongConstant b[kStages] = {{0x1.bcc6368d1177cp-5, -0x1.7a750cc662350p-59},
+                                              {},
+                                              {},
+                                              {},
+                                              {},
+                                              {0x1.1cd1ed2ad5ae2p+2, -0x1.3b90b84b54a3cp-52},
+                                              {0x1.e43a845d5ab9fp+0, 0x1.2f802e474c3a5p-54},
+                                              {-0x1.7346ecf96af43p+2, 0x1.33144eb4ac20ap-53},
+                                              {0x1.3ea1df2f0eb98p-2, -0x1.74c9e22bf52ebp-57},
+                                              {-0x1.37a028f43b002p-3, 0x1.43cd8de732c5ep-57},
+                                              {0x1.9c657697fe72dp-3, 0x1.c3c41e444fe96p-58},
+                                              {0x1.6e44f50ab6bc2p-5, 0x1.ca20d0e692a14p-59}};
+  static constexpr LongConstant c[kStages] = {{},
+                                              {0x1.aee6838dae63ap-5, 0x1.49e8bf452b1d8p-59},
+                                              {0x1.432ce2aa42cacp-4, -0x1.0891708c1fa9ep-58},
+                                              {0x1.e4c353ff64302p-4, -0x1.8cda28d22f76bp-58},
+                                              {0x1.2068c499c08d9p-2, 0x1.9339e135e4acap-57},
+                                              {0x1.5555555555555p-2, 0x1.5555555555555p-56},
+                                              {0x1.0000000000000p-2, 0},
+                                              {0x1.3b13b13b13b14p-2, -0x1.3b13b13b13b14p-56},
+                                              {0x1.4d74d74d74d75p-1, -0x1.4594594594594p-56},
+                                              {0x1.3333333333333p-1, 0x1.999999999999ap-56},
+                                              {0x1.b6db6db6db6dbp-1, 0x1.b6db6db6db6dbp-55},
+                                              {0x1.0000000000000p+0, 0}};
+};
+
+}  // namespace adstar

@@ -1,0 +1,87 @@
+#include "service/runtime/admission.hpp"
+
+#include <algorithm>
+#include <time.h>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "service/runtime/fleet.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * kSecond + now.tv_nsec;
+}
+
+/// Turning, and commanded.
+scene::Spacecraft at_its_dearest(scene::Spacecraft craft) {
+  const RigidBody<double> body(craft.inertia_body_kg_m2);
+  if (craft.initial.H_I.value() == Vec3<double>{}) {
+    constexpr double kRate = 0.01;  // [rad/s]; any turn will do
+    craft.initial = make_state(craft.initial.q_IB, body.momentum({kRate, kRate, kRate}));
+  }
+  for (const scene::Actuator& actuator : craft.actuators) {
+    auto& commanded = std::get<Commanded<double>>(craft.torques[actuator.torque]);
+    commanded.window[0] = {0, kNever, actuator.max_torque_n_m};
+    commanded.intervals = 1;
+  }
+  return craft;
+}
+
+}  // namespace
+
+StepCost measure_step(const scene::Scene& scene) {
+  constexpr std::size_t kSteps = 2000;
+  std::vector<scene::Spacecraft> spacecraft;
+  for (const scene::Spacecraft& craft : scene.spacecraft) {
+    spacecraft.push_back(at_its_dearest(craft));
+  }
+  StepLimits limits = scene.simulation.limits;
+  limits.substep_angle_rad = 1e-300;  // past the cap for whatever turns at all
+  Fleet fleet(spacecraft, scene.simulation.scheme, limits);
+  std::vector<std::int64_t> took;
+  took.reserve(kSteps);
+  const std::int64_t ends = monotonic_ns() + 2 * kSecond;
+  for (std::int64_t begun = monotonic_ns(); took.size() < kSteps && begun < ends;) {
+    const auto n = static_cast<std::int64_t>(took.size());
+    fleet.step(n * scene.simulation.step_ns, scene.simulation.step_ns);
+    const std::int64_t ended = monotonic_ns();
+    took.push_back(ended - begun);
+    begun = ended;
+  }
+  const std::size_t rank = (took.size() * 99) / 100;
+  std::nth_element(took.begin(), took.begin() + static_cast<std::ptrdiff_t>(rank), took.end());
+  return {took[rank], took.size()};
+}
+
+std::string why_it_does_not_fit(const scene::Scene& scene, const StepCost& cost) {
+  const scene::Simulation& simulation = scene.simulation;
+  const std::int64_t beat = scene::beat_ns(simulation);
+  const std::int64_t allowed = scene.budget.step_ns > 0 ? scene.budget.step_ns : beat;
+  if (simulation.pace != scene::Pace::clock || cost.p99_ns <= allowed) {
+    return {};
+  }
+  const double share = static_cast<double>(allowed) / static_cast<double>(cost.p99_ns);
+  const auto parts =
+      static_cast<std::int64_t>(static_cast<double>(simulation.limits.substeps) * share);
+  std::string remedy;
+  if (parts >= 1) {
+    remedy = fmt::format("simulation.substep_limit = {}, ", parts);
+  }
+  return fmt::format(
+      "the step does not fit: it needs {:.0f} us of a beat of {:.0f} us (p99 of {} steps, every "
+      "spacecraft in substep_limit = {} parts), {} allows {:.0f} us; try {}a longer step, fewer "
+      "spacecraft, or budget.admission = \"warn\"",
+      static_cast<double>(cost.p99_ns) * 1e-3, static_cast<double>(beat) * 1e-3, cost.steps,
+      simulation.limits.substeps, scene.budget.step_ns > 0 ? "budget.step" : "the beat",
+      static_cast<double>(allowed) * 1e-3, remedy);
+}
+
+}  // namespace adstar::runtime

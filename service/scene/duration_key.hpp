@@ -1,0 +1,14 @@
+#pragma once
+// A key that holds a duration: "10ms".
+
+#include "service/scene/keys.hpp"
+
+namespace adstar::scene {
+
+inline constexpr std::string_view kDurationRule =
+    "a duration above zero in whole nanoseconds (units ns, us, ms, s, min, h, d)";
+
+/// Nothing for an absent value; a complaint and nothing for a wrong one.
+std::optional<std::int64_t> read_duration(const Value& value, std::string_view example);
+
+}  // namespace adstar::scene

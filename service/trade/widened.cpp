@@ -1,0 +1,59 @@
+#include "service/trade/widened.hpp"
+
+#include <variant>
+
+#include "adstar/integrators/free_exact.hpp"
+
+namespace adstar::trade {
+namespace {
+
+Vec3<Wide> widened(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+
+Constant<Wide> widened(const Constant<double>& m) { return {m.frame, widened(m.torque_n_m)}; }
+Harmonic<Wide> widened(const Harmonic<double>& m) {
+  return {m.frame, widened(m.amplitude_n_m), widened(m.angular_frequency_rad_s),
+          widened(m.phase_rad)};
+}
+Table<Wide> widened(const Table<double>& m) {
+  Table<Wide> wide{m.frame, m.interpolation, m.after_end, m.time_ns, {}};
+  for (const Vec3<double>& torque : m.torque_n_m) {
+    wide.torque_n_m.push_back(widened(torque));
+  }
+  return wide;
+}
+Damping<Wide> widened(const Damping<double>& m) { return {widened(m.coefficient_n_m_s_rad)}; }
+/// Nobody commands here.
+Commanded<Wide> widened(const Commanded<double>& m) {
+  Commanded<Wide> wide;
+  wide.frame = m.frame;
+  return wide;
+}
+
+}  // namespace
+
+std::vector<Torque<Wide>> widened(const std::vector<Torque<double>>& torques) {
+  std::vector<Torque<Wide>> wide;
+  for (const Torque<double>& torque : torques) {
+    wide.push_back(std::visit([](const auto& m) -> Torque<Wide> { return widened(m); }, torque));
+  }
+  return wide;
+}
+
+/// The start as the double-precision run has it, to the bit.
+State<Wide> widened_start(const scene::Spacecraft& craft) {
+  const State<double>& s = craft.initial;
+  return make_state(Quat<Wide>{s.q_IB.w, s.q_IB.x, s.q_IB.y, s.q_IB.z}, widened(s.H_I.value()));
+}
+
+RigidBody<Wide> widened_body(const scene::Spacecraft& craft) {
+  return RigidBody<Wide>(craft.inertia_body_kg_m2.cast<Wide>());
+}
+
+State<Wide> in_closed_form(const scene::Spacecraft& craft, std::int64_t t_ns) {
+  State<Wide> state = widened_start(craft);
+  FreeExact::step(BodyOf<FreeExact, Wide>(widened_body(craft)), state, seconds<Wide>(t_ns),
+                  NoTorque{});
+  return state;
+}
+
+}  // namespace adstar::trade

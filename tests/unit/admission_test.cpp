@@ -1,0 +1,77 @@
+// Whether a scene fits its beat is measured before it flies; and what the system grants the tick's thread.
+#include "service/runtime/admission.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "service/runtime/real_time.hpp"
+#include "tests/support/tick_scene.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+using test::kMs;
+using test::tick_scene;
+
+scene::Scene paced() {
+  scene::Scene scene = tick_scene(0);
+  scene.simulation.pace = scene::Pace::clock;
+  return scene;
+}
+
+TEST(Admission, measures_the_step_at_its_dearest) {
+  scene::Scene scene = paced();
+  scene.simulation.limits.substeps = 1;
+  const StepCost cheap = measure_step(scene);
+  scene.simulation.limits.substeps = 2000;
+  const StepCost dear = measure_step(scene);
+  EXPECT_EQ(cheap.steps, 2000U);
+  EXPECT_GT(cheap.p99_ns, 0);
+  EXPECT_GT(dear.p99_ns, 20 * cheap.p99_ns) << "two thousand parts cost more than one";
+}
+
+TEST(Admission, lets_a_step_pass_that_fits_the_beat_or_its_budget) {
+  scene::Scene scene = paced();  // a beat of 10 ms
+  EXPECT_EQ(why_it_does_not_fit(scene, {10 * kMs, 2000}), "");
+  scene.budget.step_ns = 5 * kMs;
+  EXPECT_EQ(why_it_does_not_fit(scene, {5 * kMs, 2000}), "");
+  scene.simulation.pace = scene::Pace::free;
+  EXPECT_EQ(why_it_does_not_fit(scene, {50 * kMs, 2000}), "") << "nothing paces it";
+}
+
+TEST(Admission, says_what_it_needs_what_is_allowed_and_what_to_try) {
+  scene::Scene scene = paced();
+  scene.budget.step_ns = 5 * kMs;
+  EXPECT_EQ(
+      why_it_does_not_fit(scene, {8 * kMs, 2000}),
+      "the step does not fit: it needs 8000 us of a beat of 10000 us (p99 of 2000 steps, every "
+      "spacecraft in substep_limit = 64 parts), budget.step allows 5000 us; try "
+      "simulation.substep_limit = 40, a longer step, fewer spacecraft, or budget.admission = "
+      "\"warn\"");
+  scene.budget.step_ns = 0;
+  EXPECT_NE(why_it_does_not_fit(scene, {20 * kMs, 90}).find("the beat allows 10000 us"),
+            std::string::npos);
+}
+
+TEST(ThreadAccount, counts_the_faults_of_pages_that_are_touched) {
+  const int thread = static_cast<int>(gettid());
+  const ThreadAccount before = account_of(thread);
+  constexpr std::size_t kPages = 4096;
+  const auto pages = std::make_unique<char[]>(kPages * 4096);  // zeroed, so touched
+  const ThreadAccount after = account_of(thread);
+  EXPECT_GE(after.minor_faults, before.minor_faults + 1);
+  EXPECT_EQ(pages[kPages], 0);
+}
+
+TEST(ThreadAccount, of_nobody_is_nothing) {
+  const ThreadAccount none = account_of(0x7fff'fff0);
+  EXPECT_EQ(none.minor_faults, 0U);
+  EXPECT_FALSE(none.fifo_scheduling);
+  EXPECT_FALSE(none.cpu_pinned);
+}
+
+}  // namespace
+}  // namespace adstar::runtime
