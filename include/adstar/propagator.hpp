@@ -183,12 +183,45 @@ template <class Scheme, class T>
   return all;
 }
 
+/// One of `parts` equal ones. Without the division where there is but one: the step would wait for it.
+template <class T>
+[[gnu::always_inline]] inline T part_of(const T& length_s, std::int64_t parts) {
+  return parts == 1 ? length_s : length_s / T(parts);
+}
+
+/// run_segment() without torque.
+template <class Scheme, class T>
+[[gnu::noinline]] bool run_free(const BodyOf<Scheme, T>& body, State<T>& state, const T& length_s,
+                                std::int64_t parts) {
+  const T h = part_of(length_s, parts);
+  bool all = true;
+  for (std::int64_t i = 0; i < parts; ++i) {
+    all = follow<Scheme>(body, state, h, NoTorque{}) && all;
+  }
+  return all;
+}
+
+/// run_segment() with a torque constant in the body.
+template <class Scheme, class T>
+[[gnu::noinline]] bool run_constant(const BodyOf<Scheme, T>& body, State<T>& state,
+                                    const Vec3<T>& tau_B, const T& length_s, std::int64_t parts) {
+  const T h = part_of(length_s, parts);
+  const auto torque = [x = tau_B.x, y = tau_B.y, z = tau_B.z](const Stage<T>&) {
+    return TorqueSample<T>{{x, y, z}, {}};
+  };
+  bool all = true;
+  for (std::int64_t i = 0; i < parts; ++i) {
+    all = follow<Scheme>(body, state, h, rateless_body_torque(torque)) && all;
+  }
+  return all;
+}
+
 /// `parts` equal steps of the scheme over a segment beginning at t_ns; true when all were followed.
 template <class Scheme, class T>
 bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const Torque<T>> torques,
                  const Segment<T>& segment, std::int64_t t_ns, const T& length_s,
                  std::int64_t parts) {
-  const T h = length_s / T(parts);
+  const T h = part_of(length_s, parts);
   const bool inertial = !is_zero(segment.inertial.start) || !is_zero(segment.inertial.slope);
   const bool level = is_zero(segment.body.slope) && is_zero(segment.inertial.slope);
   const bool constant = !segment.varying && !inertial && level;
@@ -198,21 +231,11 @@ bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
     return run_general<Scheme>(body, state, torques, segment, t_ns, length_s, parts);
   }
   if (constant && is_zero(segment.body.start)) {
-    for (std::int64_t i = 0; i < parts; ++i) {
-      all = follow<Scheme>(body, state, h, NoTorque{}) && all;
-    }
-    return all;
+    return run_free<Scheme>(body, state, length_s, parts);
   }
   if constexpr (!has_many_stages<Scheme>()) {
     if (constant) {
-      const auto torque = [x = segment.body.start.x, y = segment.body.start.y,
-                           z = segment.body.start.z](const Stage<T>&) {
-        return TorqueSample<T>{{x, y, z}, {}};
-      };
-      for (std::int64_t i = 0; i < parts; ++i) {
-        all = follow<Scheme>(body, state, h, rateless_body_torque(torque)) && all;
-      }
-      return all;
+      return run_constant<Scheme>(body, state, segment.body.start, length_s, parts);
     }
   }
   const T t_s = seconds<T>(t_ns);
@@ -252,6 +275,23 @@ inline void note(StepReport& report, const SubstepCount& count, bool followed) n
   report.attitude_lost = report.attitude_lost || (!followed && count.within_limit);
 }
 
+/// advance() of a body that names no torque.
+template <class Scheme, class T>
+StepReport advance_free(const BodyOf<Scheme, T>& body, State<T>& state, const T& h_s,
+                        const StepLimits& limits) noexcept {
+  SubstepCount count;
+  if (!surely_one_part(body, state.H_I.value(), T(0), h_s, T(Scheme::kStageReach), limits)) {
+    count = count_parts<Scheme, T>(body, body_momentum(state), T(0), h_s, limits);
+  }
+  StepReport report;
+  report.parts = count.parts;
+  const bool followed = run_free<Scheme>(body, state, h_s, count.parts);
+  if (!count.within_limit || !followed) [[unlikely]] {
+    note(report, count, followed);
+  }
+  return report;
+}
+
 }  // namespace detail
 
 /// Advances `state` from t_ns to t_ns + h_ns [ns]. Never throws, never allocates. `Scheme` is one
@@ -262,6 +302,9 @@ StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
                    std::span<const Torque<T>> torques, std::int64_t t_ns, std::int64_t h_ns,
                    const StepLimits& given = {}) noexcept {
   const StepLimits limits = limits_for<Scheme>(given);
+  if (torques.empty() && h_ns > 0) {
+    return detail::advance_free<Scheme>(body, state, seconds<T>(h_ns), limits);
+  }
   StepReport report;
   const std::int64_t end_ns = t_ns + h_ns;
   for (std::int64_t segments = 0; t_ns < end_ns; ++segments) {
