@@ -8,7 +8,7 @@ packages=(
   g++ cmake ninja-build                    # build
   libeigen3-dev                            # core
   cyclonedds-dev cyclonedds-tools          # DDS (C API) and idlc
-  libspdlog-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev
+  libspdlog-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libxxhash-dev
   libxsimd-dev                             # fleets: several bodies a register
 )
 if [[ "${1:-}" == "--tests" ]]; then

@@ -60,10 +60,11 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer("Example:\n  adstar propagate configs/scenes/paper_free.toml --every 10s");
 
-  const std::vector<cli::Verb> verbs{
-      cli::add_propagate(program), cli::add_check(program),  cli::add_trade(program),
-      cli::add_reproduce(program), cli::add_torque(program), cli::add_monitor(program),
-      cli::add_list(program),      cli::add_timing(program), cli::add_completion(program)};
+  const std::vector<cli::Verb> verbs{cli::add_propagate(program), cli::add_check(program),
+                                     cli::add_trade(program),     cli::add_reproduce(program),
+                                     cli::add_torque(program),    cli::add_monitor(program),
+                                     cli::add_list(program),      cli::add_timing(program),
+                                     cli::add_replay(program),    cli::add_completion(program)};
   try {
     program.parse(arguments(argc, argv));
   } catch (const CLI::ParseError& error) {

@@ -20,6 +20,7 @@ Verb add_torque(CLI::App& program);
 Verb add_monitor(CLI::App& program);
 Verb add_list(CLI::App& program);
 Verb add_timing(CLI::App& program);
+Verb add_replay(CLI::App& program);
 /// Reads the finished option tree when it runs.
 Verb add_completion(CLI::App& program);
 

@@ -35,15 +35,16 @@ Housekeeping::Housekeeping(const scene::Scene& scene, const runtime::Tick& tick,
                            runtime::MappedSegment& segment)
     : scene_(scene), tick_(tick), segment_(segment) {}
 
-void Housekeeping::look(std::uint64_t bridge_restarts, bool stopped) {
-  segment_->status.write(status(bridge_restarts, stopped));
+void Housekeeping::look(std::uint64_t bridge_restarts, const StateHash& hash, bool stopped) {
+  segment_->status.write(status(bridge_restarts, hash, stopped));
   const runtime::TimingRecord now = timing();
   segment_->timing.write(now);
   runtime::wake_bridge(*segment_);
   log_changes(now);
 }
 
-runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, bool stopped) const {
+runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, const StateHash& hash,
+                                           bool stopped) const {
   const runtime::TickReport& report = tick_.report();
   runtime::StatusRecord status;
   status.step = read(report.step);
@@ -61,6 +62,8 @@ runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, bool s
   status.verdicts_lost = read(report.verdicts_lost);
   status.telemetry_lost = read(report.telemetry_lost);
   status.bridge_restarts = bridge_restarts;
+  status.state_hash = hash.hash;
+  status.state_hash_step = hash.step;
   return status;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "service/adstard/recorder.hpp"
 #include "service/runtime/real_time.hpp"
 #include "service/runtime/shared_segment.hpp"
 #include "service/runtime/tick.hpp"
@@ -24,13 +25,14 @@ class Housekeeping {
 
   /// Writes status and timing for the bridge and logs changes since the last call. Once a second
   /// will do.
-  void look(std::uint64_t bridge_restarts, bool stopped);
+  void look(std::uint64_t bridge_restarts, const StateHash& hash, bool stopped);
 
   /// The run in a few lines.
   void summarise() const;
 
  private:
-  runtime::StatusRecord status(std::uint64_t bridge_restarts, bool stopped) const;
+  runtime::StatusRecord status(std::uint64_t bridge_restarts, const StateHash& hash,
+                               bool stopped) const;
   runtime::TimingRecord timing() const;
   void log_changes(const runtime::TimingRecord& now);
   void log_budget(const runtime::TimingRecord& now);

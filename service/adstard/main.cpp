@@ -14,6 +14,7 @@
 
 #include "service/adstard/bridge_process.hpp"
 #include "service/adstard/housekeeping.hpp"
+#include "service/adstard/keeping.hpp"
 #include "service/adstard/options.hpp"
 #include "service/adstard/scene_text.hpp"
 #include "service/log.hpp"
@@ -114,15 +115,17 @@ void log_start(const scene::Scene& scene) {
   spdlog::info("models and leaves out:\n{}", models.substr(0, models.find_last_not_of('\n') + 1));
 }
 
-int fly(const scene::Scene& scene, const std::string& text, const std::string& file,
-        const sigset_t& signals) {
+int fly(Plan& plan, const Options& options, const sigset_t& signals) {
+  const scene::Scene& scene = plan.scene;
   runtime::MappedSegment segment = runtime::MappedSegment::create(
       scene.telemetry.fleet_every != 0 ? scene.spacecraft.size() : 0);
   runtime::Tick tick(scene, segment);
+  Keeping keeping(plan, options, tick, segment);
   Housekeeping housekeeping(scene, tick, segment);
 
-  BridgeCommand command{bridge_beside_this_program(), segment.fd(), make_sealed_memfd(text), file,
-                        scene.service.name,           {},           clock_ns(CLOCK_REALTIME)};
+  BridgeCommand command{
+      bridge_beside_this_program(), segment.fd(), make_sealed_memfd(plan.text), plan.file,
+      scene.service.name,           {},           clock_ns(CLOCK_REALTIME)};
   if (getrandom(&command.instance, sizeof command.instance, 0) != sizeof command.instance) {
     throw std::system_error(errno, std::generic_category(), "getrandom");
   }
@@ -173,14 +176,15 @@ int fly(const scene::Scene& scene, const std::string& text, const std::string& f
       bridge_was_alive = bridge.restart_when_due(now);
     }
     if (now >= next_look) {
-      housekeeping.look(bridge.restarts(), false);
+      housekeeping.look(bridge.restarts(), keeping.newest_hash(), false);
       next_look = now + kLookPeriod;
     }
   }
   tick_thread.join();
 
   tick.publish_final(kBridgePatienceMs / 3);
-  housekeeping.look(bridge.restarts(), true);
+  keeping.finish(tick);
+  housekeeping.look(bridge.restarts(), keeping.newest_hash(), true);
   segment->stop_requested.store(1);
   runtime::wake_bridge(*segment);
   bridge.finish(kBridgePatienceMs);
@@ -203,14 +207,15 @@ int main(int argc, char** argv) {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   std::signal(SIGPIPE, SIG_IGN);  // a log reader that goes away must not end the run
   try {
-    const std::string text = read_text(options->scene_file);
-    scene::Scene scene = scene::parse(text, options->scene_file);
-    apply(*options, scene);
-    set_up_log(scene.log, "adstard");
-    if (!admitted(scene)) {
+    Plan plan = make_plan(*options);
+    set_up_log(plan.scene.log, "adstard");
+    if (!admitted(plan.scene)) {
       return kRefused;
     }
-    return fly(scene, text, options->scene_file, signals);
+    return fly(plan, *options, signals);
+  } catch (const run::RunError& error) {
+    fmt::print(stderr, "adstard: {}\n", error.what());
+    return kRefused;
   } catch (const scene::SceneError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return kUsage;

@@ -11,22 +11,39 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       "adstard - propagates the attitude of the spacecraft of a scene in real time.\n"
       "Takes TorqueCommand over DDS, publishes attitude, momentum and timing. Ctrl-C ends the run.",
       "adstard"};
-  app.add_option("SCENE", options.scene_file, "the scene, a TOML file")->required();
+  auto* const scene = app.add_option("SCENE", options.scene_file, "the scene, a TOML file");
+  auto* const run = app.add_option(
+      "--run", options.run, "keep checkpoints and a journal of the commands in this new directory");
+  auto* const resume =
+      app.add_option("--resume", options.resume,
+                     "go on with the run in this directory, with the bits it would have had");
+  scene->excludes(resume);
+  run->excludes(resume);
+  app.add_flag("--accept-loss", options.accept_loss,
+               "with --resume: go on even where part of the journal is missing")
+      ->needs(resume);
   app.add_option("--service", options.service,
                  "what this daemon calls itself (default: the scene's name, or the host's)");
   app.add_option("--duration", options.duration,
                  "simulated time to run for, e.g. 10min (default: the scene's)");
   app.set_version_flag("--version", ADSTAR_VERSION);
   app.footer(
-      "Example:\n  adstard configs/scenes/demo.toml\n\n"
+      "Examples:\n  adstard configs/scenes/demo.toml\n  adstard configs/scenes/demo.toml --run "
+      "runs/monday\n"
+      "  adstard --resume runs/monday\n\n"
       "Exit codes: 0 done, 2 usage or scene, 3 refused (somebody flies these spacecraft already, "
       "or the "
-      "step does not fit its beat), "
+      "step does not fit its beat, or the run cannot go on as it was), "
       "1 anything else.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? kDone : kUsage;
+    return std::nullopt;
+  }
+  if (options.scene_file.empty() && options.resume.empty()) {
+    fmt::print(stderr, "SCENE is required, or --resume DIRECTORY; try adstard --help\n");
+    exit_code = kUsage;
     return std::nullopt;
   }
   return options;

@@ -13,7 +13,10 @@ namespace adstar::adstard {
 enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kRefused = 3, kNoAnswer = 4 };
 
 struct Options {
-  std::string scene_file;
+  std::string scene_file;  ///< empty with resume
+  std::string run;         ///< directory of a run to begin; empty: the scene's
+  std::string resume;      ///< directory of a run to go on with
+  bool accept_loss = false;
   std::string service;   ///< empty: the scene's
   std::string duration;  ///< empty: the scene's
 };

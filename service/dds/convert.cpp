@@ -25,7 +25,7 @@ static_assert(static_cast<int>(Reason::old_sequence) == adstar_REASON_OLD_SEQUEN
 static_assert(static_cast<int>(Reason::no_authority) == adstar_REASON_NO_AUTHORITY);
 static_assert(static_cast<int>(Reason::schedule_full) == adstar_REASON_SCHEDULE_FULL);
 static_assert(static_cast<int>(Reason::capacity) == adstar_REASON_CAPACITY);
-static_assert(static_cast<int>(Reason::halted) == adstar_REASON_HALTED);
+static_assert(static_cast<int>(Reason::not_recorded) == adstar_REASON_NOT_RECORDED);
 static_assert(static_cast<int>(runtime::RunState::running) == adstar_SERVICE_RUNNING);
 static_assert(static_cast<int>(runtime::RunState::stopped) == adstar_SERVICE_STOPPED);
 static_assert(static_cast<int>(runtime::RunState::halted) == adstar_SERVICE_HALTED);
@@ -199,6 +199,8 @@ adstar_ServiceStatus to_sample(const runtime::StatusRecord& record,
   sample.verdicts_lost = record.verdicts_lost;
   sample.telemetry_lost = record.telemetry_lost;
   sample.bridge_restarts = clip32(record.bridge_restarts);
+  sample.state_hash = record.state_hash;
+  sample.state_hash_step = record.state_hash_step;
   return sample;
 }
 
@@ -212,7 +214,7 @@ std::optional<Verdict> verdict_of(const adstar_CommandStatus& sample) noexcept {
 
 std::optional<Reason> reason_of(const adstar_CommandStatus& sample) noexcept {
   const std::uint32_t value = number(sample.reason);
-  if (value > static_cast<std::uint32_t>(Reason::halted)) {
+  if (value > static_cast<std::uint32_t>(Reason::not_recorded)) {
     return std::nullopt;
   }
   return static_cast<Reason>(value);

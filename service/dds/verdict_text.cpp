@@ -49,6 +49,8 @@ const char* reason_name(Reason reason) noexcept {
       return "capacity";
     case Reason::halted:
       return "halted";
+    case Reason::not_recorded:
+      return "not_recorded";
   }
   return "unknown reason";
 }
@@ -81,6 +83,10 @@ const char* reason_text(Reason reason) noexcept {
     case Reason::halted:
       return "the service's clock stands: a beat was over its budget; see its log, and start it "
              "anew";
+    case Reason::not_recorded:
+      return "the run is recorded, and its journal takes no more commands; see the service's log: "
+             "is the "
+             "disk full?";
   }
   return "a reason that this program does not know; it is older than the service";
 }

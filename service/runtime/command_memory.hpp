@@ -52,32 +52,35 @@ class CommandMemory {
     streams_.resize(sets * kWays);
   }
 
-  /// The stream of that commander on that actuator, new or known; null when both its sets are full
-  /// of busy ones.
-  Stream* find(const CommanderId& commander, std::uint32_t actuator, std::uint64_t now) noexcept {
+  /// The stream of that commander on that actuator; null when it was not heard, or is forgotten.
+  Stream* find(const CommanderId& commander, std::uint32_t actuator) noexcept {
     const std::uint64_t hash = hash_of(commander, actuator);
-    Stream* place = nullptr;
-    for (const std::uint64_t choice : {hash, hash >> 32}) {
-      Stream* const set = streams_.data() + kWays * (choice & (streams_.size() / kWays - 1));
+    for (Stream* const set : {set_of(hash), set_of(hash >> 32)}) {
       for (std::size_t way = 0; way < kWays; ++way) {
         Stream& stream = set[way];
         if (stream.used && stream.commander == commander && stream.actuator == actuator) {
-          stream.last_heard = now;
           return &stream;
-        }
-        const bool free = !stream.used || stream.live == 0;
-        if (free && (place == nullptr || rank(stream) < rank(*place))) {
-          place = &stream;
         }
       }
     }
-    if (place != nullptr) {
+    return nullptr;
+  }
+
+  /// The same, made where there is none, heard `now`; null when both its sets are full of busy ones.
+  Stream* find_or_make(const CommanderId& commander, std::uint32_t actuator,
+                       std::uint64_t now) noexcept {
+    Stream* place = find(commander, actuator);
+    if (place == nullptr) {
+      place = place_for(hash_of(commander, actuator));
+      if (place == nullptr) {
+        return nullptr;
+      }
       *place = Stream{};
       place->used = true;
       place->commander = commander;
       place->actuator = actuator;
-      place->last_heard = now;
     }
+    place->last_heard = now;
     return place;
   }
 
@@ -85,9 +88,29 @@ class CommandMemory {
     return static_cast<std::uint32_t>(&stream - streams_.data());
   }
   Stream& at(std::uint32_t index) noexcept { return streams_[index]; }
+  const std::vector<Stream>& streams() const noexcept { return streams_; }
 
  private:
   static constexpr std::size_t kWays = 8;
+
+  Stream* set_of(std::uint64_t choice) noexcept {
+    return streams_.data() + kWays * (choice & (streams_.size() / kWays - 1));
+  }
+
+  /// The one to give up for a new stream; null when all are busy.
+  Stream* place_for(std::uint64_t hash) noexcept {
+    Stream* place = nullptr;
+    for (Stream* const set : {set_of(hash), set_of(hash >> 32)}) {
+      for (std::size_t way = 0; way < kWays; ++way) {
+        Stream& stream = set[way];
+        const bool free = !stream.used || stream.live == 0;
+        if (free && (place == nullptr || rank(stream) < rank(*place))) {
+          place = &stream;
+        }
+      }
+    }
+    return place;
+  }
 
   /// Unused ones first, then the longest silent.
   static std::uint64_t rank(const Stream& stream) noexcept {

@@ -118,19 +118,30 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
     return;
   }
   Actuator& actuator = actuators_[number];
-  Stream* const stream = memory_.find(command.commander, number, counters_.received);
-  if (stream == nullptr) {
-    ++counters_.refused;
-    verdict.reason = Reason::capacity;
-    put(verdict);
-    return;
-  }
-  if (command.sequence <= stream->last_sequence) {
-    if (!repeat(*stream, actuator, command.sequence)) {
+  const Stream* const known = memory_.find(command.commander, number);
+  if (command.sequence <= (known == nullptr ? 0 : known->last_sequence)) {
+    if (known == nullptr || !repeat(*known, actuator, command.sequence)) {
       ++counters_.refused;
       verdict.reason = Reason::old_sequence;
       put(verdict);
     }
+    return;
+  }
+  // From here on the gate changes: not before that is written down.
+  if (journal_ != nullptr) {
+    if (!journal_->has_room()) {
+      ++counters_.refused;
+      verdict.reason = Reason::not_recorded;
+      put(verdict);
+      return;
+    }
+    journal_->write(JournalKind::command, beat.step, command);
+  }
+  Stream* const stream = memory_.find_or_make(command.commander, number, ++heard_);
+  if (stream == nullptr) {
+    ++counters_.refused;
+    verdict.reason = Reason::capacity;
+    put(verdict);
     return;
   }
   stream->last_sequence = command.sequence;
@@ -240,7 +251,7 @@ void CommandGate::release(std::uint32_t entry) noexcept {
   free_ = entry;
 }
 
-void CommandGate::begin_step(const Beat& beat, Fleet& fleet) noexcept {
+void CommandGate::begin(const Beat& beat, Fleet* fleet) noexcept {
   for (std::size_t i = 0; i < busy_.size();) {
     Actuator& actuator = actuators_[busy_[i]];
     advance(actuator, beat, fleet);
@@ -254,9 +265,12 @@ void CommandGate::begin_step(const Beat& beat, Fleet& fleet) noexcept {
   }
 }
 
-void CommandGate::advance(Actuator& actuator, const Beat& beat, Fleet& fleet) noexcept {
-  auto& commanded =
-      std::get<Commanded<double>>(fleet.vehicles()[actuator.spacecraft].torques[actuator.torque]);
+void CommandGate::advance(Actuator& actuator, const Beat& beat, Fleet* fleet) noexcept {
+  Commanded<double> nobodys;
+  Commanded<double>& commanded =
+      fleet == nullptr ? nobodys
+                       : std::get<Commanded<double>>(
+                             fleet->vehicles()[actuator.spacecraft].torques[actuator.torque]);
   commanded.intervals = 0;
   std::uint32_t* link = &actuator.head;
   while (*link != kNone) {

@@ -8,10 +8,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "service/runtime/command_memory.hpp"
 #include "service/runtime/fleet.hpp"
+#include "service/runtime/journal.hpp"
 #include "service/runtime/records.hpp"
 #include "service/runtime/ring.hpp"
 #include "service/scene/scene.hpp"
@@ -49,7 +51,22 @@ class CommandGate {
   void refuse(const CommandRecord& command, const Beat& beat, Reason reason) noexcept;
 
   /// Ends, begins and answers what this beat's step reaches, and hands the torques to the vehicles.
-  void begin_step(const Beat& beat, Fleet& fleet) noexcept;
+  void begin_step(const Beat& beat, Fleet& fleet) noexcept { begin(beat, &fleet); }
+
+  /// The same where nobody flies: the gate alone is carried on.
+  void begin_step(const Beat& beat) noexcept { begin(beat, nullptr); }
+
+  /// Nothing is in force and nothing waits: begin_step has nothing to do.
+  bool idle() const noexcept { return busy_.empty(); }
+
+  /// Every command that changes the gate is written there first; what finds no place there is refused
+  /// (not_recorded).
+  void record_in(JournalWriter* journal) noexcept { journal_ = journal; }
+
+  /// All that later judgements depend on, and back into a gate of the same scene. load() gives false, and
+  /// the gate is to be thrown away, when `words` cannot have come from save().
+  std::vector<std::uint64_t> save() const;
+  bool load(std::span<const std::uint64_t> words);
 
   const GateCounters& counters() const noexcept { return counters_; }
 
@@ -85,10 +102,13 @@ class CommandGate {
                 const Beat& beat) noexcept;
   void insert(Actuator& actuator, std::uint32_t entry) noexcept;
   void release(std::uint32_t entry) noexcept;
-  void advance(Actuator& actuator, const Beat& beat, Fleet& fleet) noexcept;
+  void begin(const Beat& beat, Fleet* fleet) noexcept;
+  void advance(Actuator& actuator, const Beat& beat, Fleet* fleet) noexcept;
 
   VerdictRing& verdicts_;
+  JournalWriter* journal_ = nullptr;
   GateCounters counters_;
+  std::uint64_t heard_ = 0;  ///< commands with a sequence number not heard before
   std::vector<Actuator> actuators_;
   std::vector<std::uint32_t> first_actuator_;  ///< of each spacecraft; one more entry at the end
   CommandMemory memory_;

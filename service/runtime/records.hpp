@@ -56,7 +56,8 @@ enum class Reason : std::uint32_t {
   no_authority,
   schedule_full,
   capacity,
-  halted
+  halted,
+  not_recorded
 };
 
 /// The answer to one command.
@@ -141,6 +142,8 @@ struct StatusRecord {
   std::uint64_t verdicts_lost = 0;
   std::uint64_t telemetry_lost = 0;
   std::uint64_t bridge_restarts = 0;
+  std::uint64_t state_hash = 0;       ///< of every spacecraft's state at state_hash_step
+  std::uint64_t state_hash_step = 0;  ///< 0: none yet
 };
 
 struct QuantilesRecord {

@@ -53,6 +53,21 @@ class SpscRing {
     return entry;
   }
 
+  /// Producer: whether the next push finds a place. It stays true until then.
+  bool has_room() const noexcept {
+    return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) < Capacity;
+  }
+
+  /// Consumer. The entry `offset` behind the oldest, which stays; below size() only.
+  const Entry& peek(std::size_t offset) const noexcept {
+    return entries_[(tail_.load(std::memory_order_relaxed) + offset) & (Capacity - 1)];
+  }
+
+  /// Consumer. Lets go of the oldest `count`, size() at most.
+  void release(std::size_t count) noexcept {
+    tail_.store(tail_.load(std::memory_order_relaxed) + count, std::memory_order_release);
+  }
+
   /// Consumer. Forgets everything pushed so far.
   void skip_all() noexcept {
     tail_.store(head_.load(std::memory_order_acquire), std::memory_order_release);

@@ -40,6 +40,11 @@ bool due_at(std::uint64_t step, std::uint64_t every, bool everything) noexcept {
   return every != 0 && (everything || step % every == 0);
 }
 
+/// Whole steps in a second of simulation time, at least one.
+std::uint64_t snapshot_every(std::int64_t step_ns) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(1, kSecond / step_ns));
+}
+
 /// The larger; what is no number is the worst of all.
 double worse(double a, double b) noexcept { return a >= b || std::isnan(a) ? a : b; }
 
@@ -64,14 +69,19 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
                      : std::array<std::int64_t, kPhases>{}),
       fleet_(scene.spacecraft, scene.simulation.scheme, scene.simulation.limits),
       gate_(scene.spacecraft, segment->verdicts),
+      snapshot_every_(snapshot_every(step_ns_)),
+      snapshot_(scene.spacecraft.size()),
       fleet_words_(fleet_words(segment.fleet_size())) {}
 
 void Tick::run(const std::atomic<bool>& stop) noexcept {
-  publish(0, true);
+  report_.step.store(first_step_, std::memory_order_relaxed);
+  publish(first_step_, true);
   BeatClock clock = make_beat_clock(monotonic_ns(), step_ns_, rate_);
+  clock.base_ns -= beats_to_ns(clock, first_step_);
   const std::int64_t period_ns = pace_ == scene::Pace::clock ? beats_to_ns(clock, 1) : 0;
-  std::int64_t ended = clock.base_ns;
-  for (std::uint64_t n = 0; !stop.load(std::memory_order_relaxed) && n < last_step_; ++n) {
+  std::int64_t ended = due_ns(clock, first_step_);
+  for (std::uint64_t n = first_step_; !stop.load(std::memory_order_relaxed) && n < last_step_;
+       ++n) {
     const std::int64_t begun = pace_ == scene::Pace::clock ? await_beat(clock, n, ended) : ended;
     if (halted()) {
       break;
@@ -142,6 +152,12 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
   }
   report_.unresolved_spacecraft.store(unresolved, std::memory_order_relaxed);
   report_.step.store(n + 1, std::memory_order_relaxed);
+  if (journal_ != nullptr) {
+    journal_->reached(n + 1);
+  }
+  if ((n + 1) % snapshot_every_ == 0) {
+    snapshot_.offer(fleet_.vehicles(), n + 1);
+  }
   publish_counters();
 
   const bool everything = segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0;

@@ -12,6 +12,7 @@
 
 #include "service/runtime/beat_clock.hpp"
 #include "service/runtime/fleet.hpp"
+#include "service/runtime/fleet_snapshot.hpp"
 #include "service/runtime/gate.hpp"
 #include "service/runtime/histogram.hpp"
 #include "service/runtime/shared_segment.hpp"
@@ -54,6 +55,15 @@ class Tick {
  public:
   Tick(const scene::Scene& scene, MappedSegment& segment);
 
+  /// Before run(): what is to be written down, every command and how far the run is.
+  void record_in(JournalWriter* journal) noexcept {
+    journal_ = journal;
+    gate_.record_in(journal);
+  }
+
+  /// Before run(): a run that goes on at a later step; fleet() and gate() are set to it by the caller.
+  void go_on_from(std::uint64_t step) noexcept { first_step_ = step; }
+
   /// Runs until `stop` is set or the scene's duration is over. Call from the thread that is to be
   /// real-time. Halted, it goes on serving snapshots and refusing commands until `stop` is set.
   void run(const std::atomic<bool>& stop) noexcept;
@@ -64,6 +74,9 @@ class Tick {
 
   const TickReport& report() const noexcept { return report_; }
   const Fleet& fleet() const noexcept { return fleet_; }
+  Fleet& fleet() noexcept { return fleet_; }                ///< not while it runs
+  CommandGate& gate() noexcept { return gate_; }            ///< not while it runs
+  FleetSnapshot& snapshot() noexcept { return snapshot_; }  ///< the reader's end
   std::int64_t time_ns() const noexcept {
     return static_cast<std::int64_t>(report_.step.load(std::memory_order_relaxed)) * step_ns_;
   }
@@ -104,6 +117,10 @@ class Tick {
   std::array<std::int64_t, kPhases> budget_ns_;  ///< by Phase; 0: none
   Fleet fleet_;
   CommandGate gate_;
+  JournalWriter* journal_ = nullptr;
+  std::uint64_t first_step_ = 0;
+  std::uint64_t snapshot_every_;  ///< steps: about a second of simulation time
+  FleetSnapshot snapshot_;
   std::vector<std::uint64_t> fleet_words_;
   bool late_by_work_ = false;  ///< what made the beats since the last sleep late
   TickReport report_;

@@ -52,6 +52,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   scene.telemetry = read_telemetry(root, scene.simulation.step_ns, fleet);
   scene.spacecraft = std::move(fleet.spacecraft);
   scene.budget = read_budget(root, scene.simulation);
+  scene.run = read_run(root);
   scene.service = read_service(root);
   scene.dds = read_dds(root);
   scene.log = read_log(root);

@@ -73,6 +73,14 @@ struct Telemetry {
       watched;  ///< spacecraft with AttitudeState and MomentumState of their own
 };
 
+/// What a run leaves on disk.
+struct Run {
+  std::string directory;                              ///< empty: nothing is kept
+  std::int64_t checkpoint_every_ns = 10'000'000'000;  ///< simulation time
+  bool whole_history =
+      false;  ///< keep all of the journal, not only what the newest checkpoints need
+};
+
 struct Service {
   std::string name;        ///< default: the host name
   int priority = 80;       ///< SCHED_FIFO, 1 to 99; 0: ordinary scheduling
@@ -95,6 +103,7 @@ struct Scene {
   std::vector<Spacecraft> spacecraft;
   Telemetry telemetry;
   Budget budget;
+  Run run;
   Service service;
   Dds dds;
   Log log;

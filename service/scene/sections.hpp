@@ -30,6 +30,7 @@ Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Table
 
 Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fleet);
 Budget read_budget(Keys& root, const Simulation& simulation);
+Run read_run(Keys& root);
 Service read_service(Keys& root);
 Dds read_dds(Keys& root);
 Log read_log(Keys& root);

@@ -1,0 +1,101 @@
+#include "service/adstard/keeping.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <sys/random.h>
+#include <system_error>
+
+#include <spdlog/spdlog.h>
+
+#include "service/adstard/scene_text.hpp"
+#include "service/run/resume.hpp"
+
+namespace adstar::adstard {
+namespace {
+
+std::uint64_t random_word() {
+  std::uint64_t word = 0;
+  if (getrandom(&word, sizeof word, 0) != sizeof word) {
+    throw std::system_error(errno, std::generic_category(), "getrandom");
+  }
+  return word;
+}
+
+}  // namespace
+
+Plan make_plan(Options options) {
+  Plan plan;
+  if (options.resume.empty()) {
+    plan.file = options.scene_file;
+    plan.text = read_text(plan.file);
+  } else {
+    plan.run = run::RunDirectory::open(options.resume, run::RunDirectory::Use::fly);
+    const run::RunFacts& facts = plan.run->facts();
+    plan.file = facts.scene_file.string();
+    plan.text = facts.scene_text;
+    options.service = options.service.empty() ? facts.service : options.service;
+    options.duration = options.duration.empty() ? facts.duration : options.duration;
+  }
+  plan.scene = scene::parse(plan.text, plan.file);
+  apply(options, plan.scene);
+  return plan;
+}
+
+Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
+                 runtime::MappedSegment& segment) {
+  const scene::Scene& scene = plan.scene;
+  const std::string directory = options.run.empty() ? scene.run.directory : options.run;
+  if (!plan.run && !directory.empty()) {
+    plan.run = run::RunDirectory::create(
+        directory, {random_word(), plan.text, plan.file, options.service, options.duration});
+  }
+  std::unique_ptr<run::RunLog> log;
+  if (plan.run) {
+    run_ = plan.run->facts().run;
+    const std::uint64_t fingerprint = run::scene_fingerprint(scene, plan.text);
+    if (!options.resume.empty()) {
+      go_on(plan, options.accept_loss, fingerprint, tick, segment);
+    }
+    if (!hot_) {
+      hot_ = run::HotJournalFile::create(run_);
+      (*hot_)->step.store(first_step_);
+    }
+    log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, tick.gate(),
+                                        first_step_, next_number_, last_in_files_);
+    writer_.emplace(**hot_, next_number_);
+    tick.record_in(&*writer_);
+  }
+  const std::int64_t every = scene.run.checkpoint_every_ns / scene.simulation.step_ns;
+  recorder_ = std::make_unique<Recorder>(
+      tick.snapshot(), std::move(log), first_step_,
+      static_cast<std::uint64_t>(std::max<std::int64_t>(1, every)), scene.run.whole_history);
+}
+
+void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint,
+                    runtime::Tick& tick, runtime::MappedSegment& segment) {
+  hot_ = run::HotJournalFile::open(run_);
+  run::Flight flight{tick.gate(), &tick.fleet(), plan.scene.simulation.step_ns, 0};
+  const run::Resumed resumed = run::resume(*plan.run, hot_ ? &**hot_ : nullptr, plan.scene,
+                                           fingerprint, accept_loss, flight, segment->verdicts);
+  for (const std::string& note : resumed.notes) {
+    spdlog::warn("{}", note);
+  }
+  if (!resumed.records.gap.empty()) {
+    hot_.reset();  // it may hold what comes after the gap
+  }
+  first_step_ = flight.step;
+  next_number_ = resumed.records.next_number;
+  last_in_files_ = resumed.records.last_in_files;
+  tick.go_on_from(first_step_);
+  spdlog::info("the run goes on at step {}: checkpoint of step {}, {} commands since", first_step_,
+               resumed.checkpoint_step, resumed.commands);
+}
+
+void Keeping::finish(const runtime::Tick& tick) {
+  const std::uint64_t step = tick.report().step.load(std::memory_order_relaxed);
+  if (recorder_->finish(tick.fleet(), step) && hot_) {
+    run::HotJournalFile::remove(run_);
+  }
+}
+
+}  // namespace adstar::adstard

@@ -1,0 +1,52 @@
+#pragma once
+// The run on disk, if the scene or the command line asks for one: begun, or gone on with.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "service/adstard/options.hpp"
+#include "service/adstard/recorder.hpp"
+#include "service/run/hot_journal_file.hpp"
+#include "service/run/run_directory.hpp"
+#include "service/runtime/shared_segment.hpp"
+#include "service/runtime/tick.hpp"
+
+namespace adstar::adstard {
+
+/// What is to be flown: of a scene file, or of a run that is gone on with.
+struct Plan {
+  std::string text;  ///< of the scene
+  std::string file;  ///< where that was read
+  scene::Scene scene;
+  std::optional<run::RunDirectory> run;
+};
+
+/// Opens the run that is to be gone on with; a new one is not begun yet. Throws SceneError, RunError.
+Plan make_plan(Options options);
+
+/// Keeps the run while it lives. Without a directory it only hashes the state.
+class Keeping {
+ public:
+  /// Before tick.run() and before the bridge: begins the new run, or brings the tick to where a run was that is gone on with.
+  /// Throws RunError.
+  Keeping(Plan& plan, const Options& options, runtime::Tick& tick, runtime::MappedSegment& segment);
+
+  StateHash newest_hash() const { return recorder_->newest_hash(); }
+
+  /// After tick.run().
+  void finish(const runtime::Tick& tick);
+
+ private:
+  void go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint, runtime::Tick& tick,
+             runtime::MappedSegment& segment);
+
+  std::uint64_t run_ = 0;
+  std::uint64_t first_step_ = 0, next_number_ = 1, last_in_files_ = 0;
+  std::optional<run::HotJournalFile> hot_;
+  std::optional<runtime::JournalWriter> writer_;
+  std::unique_ptr<Recorder> recorder_;
+};
+
+}  // namespace adstar::adstard

@@ -1,0 +1,39 @@
+#pragma once
+// The part of the journal that lives in memory, by the name of its run: it outlives the process that
+// writes it, not the machine's restart.
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "service/runtime/journal.hpp"
+
+namespace adstar::run {
+
+class HotJournalFile {
+ public:
+  /// Makes a new one, in place of one of that name. Throws std::system_error.
+  static HotJournalFile create(std::uint64_t run);
+  /// The one that a run left behind; nothing when there is none that fits.
+  static std::optional<HotJournalFile> open(std::uint64_t run);
+  /// Forgets it: the run ended in good order.
+  static void remove(std::uint64_t run) noexcept;
+
+  HotJournalFile(HotJournalFile&& other) noexcept : hot_(std::exchange(other.hot_, nullptr)) {}
+  HotJournalFile(const HotJournalFile&) = delete;
+  HotJournalFile& operator=(const HotJournalFile&) = delete;
+  HotJournalFile& operator=(HotJournalFile&& other) noexcept {
+    std::swap(hot_, other.hot_);
+    return *this;
+  }
+  ~HotJournalFile();
+
+  runtime::HotJournal& operator*() const noexcept { return *hot_; }
+  runtime::HotJournal* operator->() const noexcept { return hot_; }
+
+ private:
+  explicit HotJournalFile(runtime::HotJournal* hot) : hot_(hot) {}
+  runtime::HotJournal* hot_ = nullptr;
+};
+
+}  // namespace adstar::run

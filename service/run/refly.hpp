@@ -1,0 +1,30 @@
+#pragma once
+// Flying a recorded run again, and comparing: same bits, or where they part.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/run/run_directory.hpp"
+#include "service/scene/scene.hpp"
+
+namespace adstar::run {
+
+struct Reflight {
+  std::uint64_t from_step = 0, to_step = 0;
+  std::uint64_t commands = 0;
+  std::uint64_t hashes = 0, checkpoints = 0;  ///< compared, all equal unless differs_at
+  std::uint64_t same_until = 0;               ///< the last step where they were compared and equal
+  std::optional<std::uint64_t> differs_at;    ///< the first where they were not
+  std::string differs_in;                     ///< what of it, where that is known
+  std::vector<std::string> notes;             ///< what could not be read
+};
+
+/// Flies it from its beginning, or from the oldest checkpoint whose journal is whole. `progress` is
+/// given the share done now and then, and stops it by false. Throws RunError when there is nothing to fly.
+Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::uint64_t fingerprint,
+               const std::function<bool(double)>& progress);
+
+}  // namespace adstar::run

@@ -1,0 +1,204 @@
+#include "service/run/resume.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "service/run/journal_file.hpp"
+
+namespace adstar::run {
+namespace {
+
+using runtime::JournalKind;
+using runtime::JournalRecord;
+
+/// Into its place; false when one before it is missing.
+bool add(RunRecords& all, const JournalRecord& record) {
+  if (record.kind == JournalKind::state_hash) {
+    all.hashes.push_back(record);
+    return true;
+  }
+  if (record.number < all.next_number) {
+    return true;  // in two places: moved to the file, not yet let go of
+  }
+  if (record.number > all.next_number) {
+    if (all.gap.empty()) {
+      all.gap = fmt::format("records {} to {} of the journal are missing", all.next_number,
+                            record.number - 1);
+    }
+    return false;
+  }
+  all.commands.push_back(record);
+  ++all.next_number;
+  return true;
+}
+
+/// The verdicts that are young enough to be said again.
+class LastVerdicts {
+ public:
+  explicit LastVerdicts(runtime::VerdictRing& ring) : ring_(ring) {}
+
+  void collect() {
+    while (const auto verdict = ring_.pop()) {
+      last_.push_back(*verdict);
+      if (last_.size() > kMost) {
+        last_.pop_front();
+      }
+    }
+  }
+  void say_again(std::int64_t now_ns) {
+    for (const runtime::VerdictRecord& verdict : last_) {
+      if (now_ns - verdict.time_ns <= kYoung_ns) {
+        ring_.push(verdict);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kYoung_ns = 2'000'000'000;
+  static constexpr std::size_t kMost = runtime::VerdictRing::kCapacity / 2;
+  runtime::VerdictRing& ring_;
+  std::deque<runtime::VerdictRecord> last_;
+};
+
+/// How far the run had come, for all that is known.
+std::uint64_t last_known_step(const RunRecords& records, const runtime::HotJournal* hot,
+                              std::uint64_t checkpoint_step) {
+  std::uint64_t step = checkpoint_step;
+  if (hot != nullptr) {
+    step = std::max(step, hot->step.load(std::memory_order_acquire));
+  }
+  if (!records.commands.empty()) {
+    step = std::max(step, records.commands.back().step);
+  }
+  if (!records.hashes.empty()) {
+    step = std::max(step, records.hashes.back().step);
+  }
+  return step;
+}
+
+}  // namespace
+
+RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal* hot,
+                        std::uint64_t from) {
+  RunRecords all;
+  all.next_number = from;
+  for (const Numbered& file : directory.journals()) {
+    const JournalText text = journal_from(read_bytes(file.path));
+    if (!text.damage.empty()) {
+      all.damage.push_back(file.path.string() + " " + text.damage);
+    } else if (text.run != directory.facts().run) {
+      all.damage.push_back(file.path.string() + " belongs to another run");
+      continue;
+    }
+    for (const JournalRecord& record : text.records) {
+      if (record.kind == JournalKind::command) {
+        all.last_in_files = std::max(all.last_in_files, record.number);
+      }
+      if (!add(all, record)) {
+        break;
+      }
+    }
+  }
+  if (hot != nullptr) {
+    for (std::size_t i = 0; i < hot->ring.size() && add(all, hot->ring.peek(i)); ++i) {}
+  }
+  std::stable_sort(all.hashes.begin(), all.hashes.end(),
+                   [](const JournalRecord& a, const JournalRecord& b) { return a.step < b.step; });
+  return all;
+}
+
+std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
+                                            const scene::Scene& scene, std::uint64_t fingerprint,
+                                            std::vector<std::string>& refused) {
+  for (const Numbered& file : directory.checkpoints()) {
+    try {
+      Checkpoint checkpoint = checkpoint_from(read_bytes(file.path));
+      if (checkpoint.run != directory.facts().run) {
+        throw RunError("belongs to another run");
+      }
+      if (checkpoint.fingerprint != fingerprint) {
+        throw std::invalid_argument(fmt::format(
+            "{} was made by another scene: a table that {} names has changed since; put "
+            "it back, or begin another run",
+            file.path.string(), directory.facts().scene_file.string()));
+      }
+      const auto ring = std::make_unique<runtime::VerdictRing>();
+      runtime::CommandGate gate(scene.spacecraft, *ring);
+      if (checkpoint.vehicles.size() != scene.spacecraft.size() || !gate.load(checkpoint.gate)) {
+        throw RunError("does not fit its scene");
+      }
+      return checkpoint;
+    } catch (const std::invalid_argument& error) {
+      throw RunError(error.what());
+    } catch (const RunError& error) {
+      refused.push_back(fmt::format("{} {}", file.path.string(), error.what()));
+    }
+  }
+  return std::nullopt;
+}
+
+void set_to(Flight& flight, const Checkpoint& checkpoint) {
+  flight.step = checkpoint.step;
+  flight.gate.load(checkpoint.gate);
+  if (flight.fleet != nullptr) {
+    for (std::size_t i = 0; i < checkpoint.vehicles.size(); ++i) {
+      restore(flight.fleet->vehicles()[i], checkpoint.vehicles[i]);
+    }
+  }
+}
+
+Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
+               const scene::Scene& scene, std::uint64_t fingerprint, bool accept_loss,
+               Flight& flight, runtime::VerdictRing& verdicts) {
+  Resumed resumed;
+  const std::optional<Checkpoint> checkpoint =
+      newest_checkpoint(directory, scene, fingerprint, resumed.notes);
+  for (std::string& note : resumed.notes) {
+    note += "; an older one is used";
+  }
+  if (checkpoint) {
+    set_to(flight, *checkpoint);
+  }
+  resumed.checkpoint_step = flight.step;
+  resumed.records = read_records(directory, hot, checkpoint ? checkpoint->next_number : 1);
+  const RunRecords& records = resumed.records;
+  resumed.notes.insert(resumed.notes.end(), records.damage.begin(), records.damage.end());
+  if (!records.gap.empty()) {
+    std::string what = fmt::format("{}: {}", directory.path().string(), records.gap);
+    for (const std::string& damage : records.damage) {
+      what += "; " + damage;
+    }
+    if (!accept_loss) {
+      throw RunError(fmt::format(
+          "{}; the run cannot go on as it was. --accept-loss goes on from step {}, where what is "
+          "known ends",
+          what, records.commands.empty() ? flight.step : records.commands.back().step));
+    }
+    resumed.notes.push_back(what + "; the run goes on without them");
+  }
+  if (hot == nullptr) {
+    resumed.notes.push_back(
+        "what the run had in memory is gone (the machine was started anew?): beats and commands "
+        "since the last sync are lost, and nothing before");
+  }
+  const std::uint64_t until =
+      records.gap.empty() ? last_known_step(records, hot, flight.step)
+                          : (records.commands.empty() ? flight.step : records.commands.back().step);
+  LastVerdicts last(verdicts);
+  std::span<const JournalRecord> left(records.commands);
+  while (flight.step < until) {
+    // A beat at a time: the ring of verdicts is bounded.
+    left = left.subspan(carry_on(flight, left, flight.step + 1));
+    last.collect();
+  }
+  hear(flight, left);  // of the beat that was begun
+  last.collect();
+  last.say_again(static_cast<std::int64_t>(flight.step) * flight.step_ns);
+  resumed.commands = records.commands.size();
+  return resumed;
+}
+
+}  // namespace adstar::run

@@ -1,0 +1,54 @@
+#pragma once
+// Going on with a run: the newest checkpoint that can be believed, the journal since, and the beats up to
+// where the run was.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "service/run/checkpoint.hpp"
+#include "service/run/flight.hpp"
+#include "service/run/run_directory.hpp"
+#include "service/runtime/journal.hpp"
+
+namespace adstar::run {
+
+/// What a run's files and memory hold of its journal.
+struct RunRecords {
+  std::vector<runtime::JournalRecord> commands;  ///< in turn, none missing between
+  std::vector<runtime::JournalRecord> hashes;    ///< by step
+  std::uint64_t next_number = 1;                 ///< of the record that would come next
+  std::uint64_t last_in_files = 0;  ///< number of the last that needs no memory to survive
+  std::vector<std::string> damage;  ///< a sentence for each file that is not whole
+  std::string gap;                  ///< what is missing before later records; empty: nothing
+};
+
+/// From record `from` on. `hot` may be null.
+RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal* hot,
+                        std::uint64_t from);
+
+/// The newest that is whole and of this scene; what is wrong with newer ones goes to `refused`. Nothing:
+/// the run begins with its scene. Throws RunError when the scene is not the run's.
+std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
+                                            const scene::Scene& scene, std::uint64_t fingerprint,
+                                            std::vector<std::string>& refused);
+
+/// Fleet and gate as the checkpoint has them. `flight.gate` must be new.
+void set_to(Flight& flight, const Checkpoint& checkpoint);
+
+struct Resumed {
+  std::uint64_t checkpoint_step = 0;
+  std::uint64_t commands = 0;  ///< heard again
+  RunRecords records;
+  std::vector<std::string> notes;  ///< what was wrong, and what was done about it
+};
+
+/// Brings a new flight of `scene` to where the run was. The verdicts of its last two seconds are left in
+/// `verdicts`, to be said again. Throws RunError when the run cannot go on with the bits it had, unless
+/// `accept_loss`: then it goes on from where they end.
+Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
+               const scene::Scene& scene, std::uint64_t fingerprint, bool accept_loss,
+               Flight& flight, runtime::VerdictRing& verdicts);
+
+}  // namespace adstar::run

@@ -1,0 +1,60 @@
+#pragma once
+// A run on disk: the scene it flies, checkpoints, and the journal since.
+//
+//   run.json  scene.toml                     what is flown
+//   checkpoint-000007.bin                    the newest have the highest count
+//   journal-000012.bin                       likewise; the records go on from one to the next
+//   lock                                     held by the daemon that flies it
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "service/run/files.hpp"
+#include "service/scene/scene.hpp"
+
+namespace adstar::run {
+
+struct RunFacts {
+  std::uint64_t run = 0;  ///< 64 random bits: whose checkpoints and journals these are
+  std::string scene_text;
+  std::filesystem::path scene_file;  ///< where it was read: its tables are looked up beside it
+  std::string service, duration;     ///< what the command line laid over it; empty: nothing
+};
+
+struct Numbered {
+  std::filesystem::path path;
+  std::uint64_t number = 0;  ///< in its name
+};
+
+class RunDirectory {
+ public:
+  /// Makes it and holds it. Throws RunError when it holds a run already.
+  static RunDirectory create(const std::filesystem::path& path, const RunFacts& facts);
+  enum class Use { fly, look };
+  /// One that is there. Throws RunError when there is no run in it, or a daemon that flies it.
+  static RunDirectory open(const std::filesystem::path& path, Use use);
+
+  const RunFacts& facts() const { return facts_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  std::vector<Numbered> checkpoints() const;  ///< newest first
+  std::vector<Numbered> journals() const;     ///< oldest first
+  std::filesystem::path checkpoint_path(std::uint64_t count) const;
+  std::filesystem::path journal_path(std::uint64_t count) const;
+
+ private:
+  RunDirectory(std::filesystem::path path, RunFacts facts)
+      : path_(std::move(path)), facts_(std::move(facts)) {}
+  void hold();
+
+  std::filesystem::path path_;
+  RunFacts facts_;
+  File lock_;
+};
+
+/// Of all in the scene that decides about the state, its tables too.
+std::uint64_t scene_fingerprint(const scene::Scene& scene, std::string_view text);
+
+}  // namespace adstar::run

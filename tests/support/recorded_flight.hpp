@@ -1,0 +1,160 @@
+#pragma once
+// A run that is recorded, without a tick and without threads: beats, the recorder's moves and the end
+// come when the test says so. Dropped without finish(), it is a process that was killed.
+
+#include <memory>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "service/run/hot_journal_file.hpp"
+#include "service/run/resume.hpp"
+#include "service/run/run_directory.hpp"
+#include "service/run/run_log.hpp"
+#include "service/runtime/fleet_snapshot.hpp"
+#include "tests/support/gate_harness.hpp"
+#include "tests/support/random_motion.hpp"
+
+namespace adstar::test {
+
+inline scene::Scene recorded_scene() {
+  scene::Scene scene;
+  scene.simulation.step_ns = 10 * kMs;
+  scene.spacecraft = {make_craft(2, Frame::inertial), make_craft(1, Frame::body)};
+  return scene;
+}
+
+/// A few commanders, every beat from 0 to 3 commands: of now, of later, late, repeated, not finite.
+/// A function of seed and beat.
+inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
+                                                            std::uint64_t beat) {
+  Generator random(seed * 1'000'003 + beat);
+  const auto between = [&](std::int64_t low, std::int64_t high) {
+    return std::uniform_int_distribution<std::int64_t>(low, high)(random);
+  };
+  const std::int64_t now = static_cast<std::int64_t>(beat) * 10 * kMs;
+  std::vector<runtime::CommandRecord> commands;
+  for (std::int64_t left = between(0, 3); left > 0; --left) {
+    runtime::CommandRecord command;
+    command.commander = {seed, static_cast<std::uint64_t>(between(1, 3))};
+    command.sequence = beat + 1 - static_cast<std::uint64_t>(between(0, 1));
+    command.spacecraft = static_cast<std::uint32_t>(between(0, 1));
+    command.actuator = command.spacecraft == 0 ? static_cast<std::uint32_t>(between(0, 1)) : 0;
+    command.priority = static_cast<std::int32_t>(between(0, 8) / 4);
+    command.start_ns = now + between(-20, 300) * kMs / 2;
+    command.end_ns = command.start_ns + between(1, 100) * kMs;
+    command.torque_n_m = {1e-3 * static_cast<double>(between(-9, 9)), 2e-3,
+                          between(0, 30) == 0 ? std::nan("") : 1e-3};
+    commands.push_back(command);
+  }
+  return commands;
+}
+
+class RecordedFlight {
+ public:
+  /// Without a record: what it is compared with.
+  explicit RecordedFlight(std::uint64_t seed) : seed_(seed) {}
+
+  /// Begins a run there.
+  RecordedFlight(std::uint64_t seed, const std::filesystem::path& path, std::uint64_t run)
+      : seed_(seed) {
+    directory_.emplace(run::RunDirectory::create(path, {run, "text", "scene.toml", "", ""}));
+    hot_.emplace(run::HotJournalFile::create(run));
+    start_log(1, 0);
+  }
+
+  /// Goes on with it. `accept_loss` as in resume().
+  RecordedFlight(std::uint64_t seed, const std::filesystem::path& path, bool accept_loss = false)
+      : seed_(seed) {
+    directory_.emplace(run::RunDirectory::open(path, run::RunDirectory::Use::fly));
+    const std::uint64_t run = directory_->facts().run;
+    hot_ = run::HotJournalFile::open(run);
+    run::Flight flight{gate_, &fleet_, scene_.simulation.step_ns, 0};
+    resumed =
+        run::resume(*directory_, hot_ ? &**hot_ : nullptr, scene_, 7, accept_loss, flight, *ring_);
+    step_ = flight.step;
+    if (!hot_ || !resumed.records.gap.empty()) {
+      hot_.reset();
+      hot_.emplace(run::HotJournalFile::create(run));
+      (*hot_)->step.store(step_);
+    }
+    start_log(resumed.records.next_number, resumed.records.last_in_files);
+  }
+
+  /// The commands of the present beat, the first `most` of them.
+  void hear(std::size_t most = 1000) {
+    std::size_t heard = 0;
+    for (const runtime::CommandRecord& command : commands_of_beat(seed_, step_)) {
+      if (heard++ < most) {
+        gate_.receive(command, now());
+      }
+    }
+  }
+  void compute() {
+    gate_.begin_step(now(), fleet_);
+    fleet_.step(now().t_ns, now().h_ns);
+    ring_->skip_all();
+  }
+  void conclude() {
+    ++step_;
+    if (writer_) {
+      writer_->reached(step_);
+    }
+  }
+  void beat() {
+    hear();
+    compute();
+    conclude();
+  }
+  void run_to(std::uint64_t step) {
+    while (step_ < step) {
+      beat();
+    }
+  }
+
+  void checkpoint(bool keep_all_journals = false) {
+    log_->move_records();
+    log_->note_hash(step_, run::state_hash(step_, states()));
+    log_->write_checkpoint(step_, states(), keep_all_journals);
+  }
+
+  std::vector<runtime::VehicleState> states() const {
+    std::vector<runtime::VehicleState> all;
+    for (const runtime::Vehicle& vehicle : fleet_.vehicles()) {
+      all.push_back(runtime::state_of(vehicle));
+    }
+    return all;
+  }
+  std::uint64_t hash() const { return run::state_hash(step_, states()); }
+  std::vector<std::uint64_t> schedule() const { return gate_.save(); }
+  std::uint64_t step() const { return step_; }
+  run::RunLog& log() { return *log_; }
+  runtime::HotJournal& hot() { return **hot_; }
+  runtime::VerdictRing& verdicts() { return *ring_; }
+  runtime::CommandGate& gate() { return gate_; }
+  runtime::Beat now() const {
+    return {step_, static_cast<std::int64_t>(step_) * 10 * kMs, 10 * kMs};
+  }
+  run::Resumed resumed;
+
+ private:
+  void start_log(std::uint64_t next_number, std::uint64_t last_in_files) {
+    log_ = std::make_unique<run::RunLog>(*directory_, scene_, 7, **hot_, gate_, step_, next_number,
+                                         last_in_files);
+    writer_.emplace(**hot_, next_number);
+    gate_.record_in(&*writer_);
+  }
+
+  std::uint64_t seed_;
+  scene::Scene scene_ = recorded_scene();
+  std::unique_ptr<runtime::VerdictRing> ring_ = std::make_unique<runtime::VerdictRing>();
+  runtime::Fleet fleet_{scene_.spacecraft, "coadjoint_rk4", StepLimits{}};
+  runtime::CommandGate gate_{scene_.spacecraft, *ring_};
+  std::uint64_t step_ = 0;
+  std::optional<run::RunDirectory> directory_;
+  std::optional<run::HotJournalFile> hot_;
+  std::optional<runtime::JournalWriter> writer_;
+  std::unique_ptr<run::RunLog> log_;
+};
+
+}  // namespace adstar::test

@@ -1,0 +1,351 @@
+// A run that is killed and gone on with has the bits of one that was never killed.
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "service/run/refly.hpp"
+#include "tests/support/recorded_flight.hpp"
+
+namespace adstar::run {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RecordedFlight;
+
+class KilledRun : public testing::Test {
+ protected:
+  KilledRun() {
+    std::string pattern = (fs::temp_directory_path() / "adstar-run.XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+    static std::uint64_t next = 0;
+    run_ = (static_cast<std::uint64_t>(getpid()) << 32) + ++next;
+  }
+  ~KilledRun() override {
+    HotJournalFile::remove(run_);
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  fs::path newest(const std::string& prefix) const {
+    fs::path found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
+      if (entry.path().filename().string().starts_with(prefix) && entry.path() > found) {
+        found = entry.path();
+      }
+    }
+    return found;
+  }
+
+  static void flip_a_bit(const fs::path& file, std::int64_t at) {
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    const std::int64_t size = static_cast<std::int64_t>(fs::file_size(file));
+    const std::int64_t place = at < 0 ? size + at : at;
+    stream.seekg(place);
+    const char byte = static_cast<char>(stream.get() ^ 0x10);
+    stream.seekp(place);
+    stream.put(byte);
+  }
+
+  static void expect_same(const RecordedFlight& flight, std::uint64_t seed, std::uint64_t until) {
+    RecordedFlight never_killed(seed);
+    never_killed.run_to(until);
+    ASSERT_EQ(flight.step(), until);
+    EXPECT_EQ(flight.hash(), never_killed.hash());
+    EXPECT_EQ(flight.schedule(), never_killed.schedule());
+  }
+
+  fs::path path_;
+  std::uint64_t run_ = 0;
+};
+
+TEST_F(KilledRun, goes_on_with_the_same_bits_wherever_it_was_killed) {
+  test::Generator random(4);
+  const auto between = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
+  std::optional<RecordedFlight> flight(std::in_place, 5, path_, run_);
+  constexpr std::uint64_t kEnd = 3000;
+  int kills = 0;
+  while (flight->step() < kEnd) {
+    if (between(0, 25) == 0) {
+      // Killed somewhere in a beat, or in what the recorder does.
+      switch (between(0, 4)) {
+        case 0:
+          break;
+        case 1:
+          flight->hear(static_cast<std::size_t>(between(0, 3)));
+          break;
+        case 2:
+          flight->hear();
+          flight->compute();
+          break;
+        case 3:
+          flight->hear();
+          flight->log().move_records();
+          break;
+        case 4:
+          std::ofstream(path_ / "checkpoint-999999.bin.new") << "half of one";
+          break;
+      }
+      const std::uint64_t killed_at = flight->step();
+      flight.reset();
+      flight.emplace(5, path_);
+      ASSERT_EQ(flight->step(), killed_at);
+      ++kills;
+    }
+    flight->beat();
+    if (between(0, 9) == 0) {
+      flight->log().move_records();
+    }
+    if (between(0, 99) == 0) {
+      flight->checkpoint();
+    }
+  }
+  EXPECT_GT(kills, 50);
+  expect_same(*flight, 5, kEnd);
+  // Each life begins a journal file; those before the third newest checkpoint are gone.
+  EXPECT_LE(std::distance(fs::directory_iterator(path_), {}), kills / 2) << "old files pile up";
+}
+
+TEST_F(KilledRun, a_repeated_command_gets_its_old_answer) {
+  runtime::CommandRecord command;
+  command.commander = {1, 2};
+  command.sequence = 1;
+  command.duration_ns = 100 * test::kMs;
+  command.torque_n_m = {1e-3, 0, 0};
+  std::optional<RecordedFlight> flight(std::in_place, 1, path_, run_);
+  flight->gate().receive(command, flight->now());
+  flight->compute();
+  flight->conclude();
+  flight.emplace(1, path_);
+  flight->verdicts().skip_all();
+  flight->gate().receive(command, flight->now());
+  const auto verdict = flight->verdicts().pop();
+  ASSERT_TRUE(verdict);
+  EXPECT_EQ(verdict->verdict, runtime::Verdict::applied);
+  EXPECT_EQ(verdict->step, 0U);
+}
+
+TEST_F(KilledRun, says_its_last_verdicts_again_for_the_bridge_may_have_died_with_them) {
+  runtime::CommandRecord command;
+  command.commander = {1, 2};
+  command.sequence = 1;
+  command.duration_ns = 100 * test::kMs;
+  std::optional<RecordedFlight> flight(std::in_place, 1, path_, run_);
+  flight->gate().receive(command, flight->now());
+  flight->compute();
+  flight->conclude();
+  flight.emplace(1, path_);
+  bool said = false;
+  while (const auto verdict = flight->verdicts().pop()) {
+    said = said || (verdict->sequence == 1 && verdict->commander == command.commander &&
+                    verdict->verdict == runtime::Verdict::applied);
+  }
+  EXPECT_TRUE(said);
+}
+
+TEST_F(KilledRun, uses_an_older_checkpoint_when_the_newest_was_changed_and_says_so) {
+  std::optional<RecordedFlight> flight(std::in_place, 9, path_, run_);
+  flight->run_to(100);
+  flight->checkpoint();
+  flight->run_to(200);
+  flight->checkpoint();
+  flight->run_to(250);
+  flight.reset();
+  const fs::path newest_checkpoint = newest("checkpoint-");
+  flip_a_bit(newest_checkpoint, 200);
+  flight.emplace(9, path_);
+  EXPECT_EQ(flight->resumed.checkpoint_step, 100U);
+  ASSERT_FALSE(flight->resumed.notes.empty());
+  EXPECT_NE(flight->resumed.notes[0].find(newest_checkpoint.string() + " was changed"),
+            std::string::npos)
+      << flight->resumed.notes[0];
+  flight->run_to(300);
+  expect_same(*flight, 9, 300);
+}
+
+TEST_F(KilledRun, goes_back_to_the_scene_when_no_checkpoint_is_whole) {
+  std::optional<RecordedFlight> flight(std::in_place, 9, path_, run_);
+  flight->run_to(100);
+  flight->checkpoint(true);
+  flight->run_to(120);
+  flight.reset();
+  fs::resize_file(newest("checkpoint-"), 50);
+  flight.emplace(9, path_);
+  EXPECT_EQ(flight->resumed.checkpoint_step, 0U);
+  expect_same(*flight, 9, 120);
+}
+
+TEST_F(KilledRun, without_its_memory_goes_on_from_what_the_disk_has) {
+  std::optional<RecordedFlight> flight(std::in_place, 2, path_, run_);
+  flight->run_to(100);
+  flight->checkpoint();
+  flight->run_to(150);
+  flight->log().move_records();
+  flight->run_to(170);
+  flight.reset();
+  HotJournalFile::remove(run_);  // the machine was started anew
+  flight.emplace(2, path_);
+  EXPECT_GE(flight->step(), 100U);
+  EXPECT_LE(flight->step(), 150U);
+  // Up to the last moved command all is as it was; what that beat had heard is heard.
+  flight->run_to(200);
+  expect_same(*flight, 2, 200);
+}
+
+TEST_F(KilledRun, refuses_to_go_on_across_a_hole_in_the_journal_unless_told_to) {
+  std::optional<RecordedFlight> flight(std::in_place, 2, path_, run_);
+  flight->run_to(60);
+  flight->log().move_records();
+  flight->run_to(100);
+  flight.reset();
+  const fs::path journal = newest("journal-");
+  flip_a_bit(journal, static_cast<std::int64_t>(fs::file_size(journal) / 2));
+  try {
+    flight.emplace(2, path_);
+    FAIL() << "went on";
+  } catch (const RunError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("of the journal are missing"), std::string::npos) << text;
+    EXPECT_NE(text.find(journal.string() + " was changed in record"), std::string::npos) << text;
+    EXPECT_NE(text.find("--accept-loss"), std::string::npos) << text;
+  }
+  flight.reset();
+  flight.emplace(2, path_, true);
+  EXPECT_LT(flight->step(), 60U);
+  EXPECT_GT(flight->step(), 0U);
+}
+
+TEST_F(KilledRun, a_torn_end_of_the_journal_is_no_loss_while_the_memory_has_it) {
+  std::optional<RecordedFlight> flight(std::in_place, 3, path_, run_);
+  flight->run_to(50);
+  // As if the process died while it moved: half a record in the file, all of them still in memory.
+  flight.reset();
+  std::ofstream(newest("journal-"), std::ios::app | std::ios::binary) << "half a record";
+  flight.emplace(3, path_);
+  ASSERT_FALSE(flight->resumed.notes.empty());
+  EXPECT_NE(flight->resumed.notes[0].find("is cut off in record 0"), std::string::npos);
+  flight->run_to(90);
+  expect_same(*flight, 3, 90);
+}
+
+TEST_F(KilledRun, refuses_the_checkpoint_of_another_scene) {
+  std::optional<RecordedFlight> flight(std::in_place, 3, path_, run_);
+  flight->run_to(10);
+  flight->checkpoint();
+  flight.reset();
+  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+  std::vector<std::string> refused;
+  EXPECT_THROW((void)newest_checkpoint(directory, test::recorded_scene(), 8, refused), RunError);
+}
+
+TEST_F(KilledRun, is_held_by_the_one_that_flies_it) {
+  const RecordedFlight flight(1, path_, run_);
+  EXPECT_THROW((void)RunDirectory::open(path_, RunDirectory::Use::fly), RunError);
+  EXPECT_NO_THROW((void)RunDirectory::open(path_, RunDirectory::Use::look));
+}
+
+TEST_F(KilledRun, a_directory_that_holds_a_run_is_not_begun_again) {
+  { const RecordedFlight flight(1, path_, run_); }
+  try {
+    const RecordedFlight again(1, path_, run_);
+    FAIL() << "begun again";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("--resume"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(KilledRun, a_full_disk_loses_nothing_and_what_finds_no_place_is_refused) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  RecordedFlight flight(6, path_, run_);
+  flight.run_to(20);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit full{fs::file_size(newest("journal-")) + 100, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  const std::size_t waiting = flight.hot().ring.size();
+  EXPECT_THROW(flight.log().move_records(), RunError);
+  EXPECT_EQ(flight.hot().ring.size(), waiting);
+
+  runtime::CommandRecord command;
+  command.commander = {77, 77};
+  command.duration_ns = test::kMs;
+  flight.verdicts().skip_all();
+  runtime::Verdict verdict = runtime::Verdict::applied;
+  for (std::uint64_t n = 1; n <= 2 * runtime::HotJournal::Ring::kCapacity; ++n) {
+    command.sequence = n;
+    flight.gate().receive(command, flight.now());
+    if (const auto answer = flight.verdicts().pop();
+        answer && answer->reason == runtime::Reason::not_recorded) {
+      verdict = answer->verdict;
+      break;
+    }
+  }
+  EXPECT_EQ(verdict, runtime::Verdict::refused);
+
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_TRUE(flight.log().move_records());
+  EXPECT_EQ(flight.hot().ring.size(), 0U);
+  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+  const RunRecords records = read_records(directory, nullptr, 1);
+  EXPECT_TRUE(records.damage.empty());
+  EXPECT_EQ(records.commands.size(), runtime::HotJournal::Ring::kCapacity);
+}
+
+TEST_F(KilledRun, flown_again_gives_the_same_bits) {
+  {
+    RecordedFlight flight(8, path_, run_);
+    for (std::uint64_t step = 50; step <= 400; step += 50) {
+      flight.run_to(step);
+      flight.checkpoint(true);
+    }
+  }
+  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+  const Reflight again = refly(directory, test::recorded_scene(), 7, [](double) { return true; });
+  EXPECT_EQ(again.from_step, 0U);
+  EXPECT_EQ(again.to_step, 400U);
+  EXPECT_EQ(again.hashes, 8U);
+  EXPECT_EQ(again.checkpoints, 3U);
+  EXPECT_FALSE(again.differs_at) << *again.differs_at << again.differs_in;
+}
+
+TEST_F(KilledRun, flown_again_from_the_oldest_checkpoint_when_the_beginning_was_dropped) {
+  {
+    RecordedFlight flight(8, path_, run_);
+    for (std::uint64_t step = 50; step <= 400; step += 50) {
+      flight.run_to(step);
+      flight.checkpoint();
+    }
+  }
+  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+  const Reflight again = refly(directory, test::recorded_scene(), 7, [](double) { return true; });
+  EXPECT_EQ(again.from_step, 300U);
+  EXPECT_EQ(again.to_step, 400U);
+  EXPECT_FALSE(again.differs_at);
+}
+
+TEST_F(KilledRun, flown_again_with_another_body_says_where_it_parts) {
+  {
+    RecordedFlight flight(8, path_, run_);
+    for (std::uint64_t step = 50; step <= 200; step += 50) {
+      flight.run_to(step);
+      flight.checkpoint(true);
+    }
+  }
+  scene::Scene other = test::recorded_scene();
+  other.spacecraft[1].name = "other";
+  other.spacecraft[1].inertia_body_kg_m2(0, 0) += 1e-12;
+  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+  const Reflight again = refly(directory, other, 7, [](double) { return true; });
+  ASSERT_TRUE(again.differs_at);
+  EXPECT_EQ(*again.differs_at, 50U);
+}
+
+}  // namespace
+}  // namespace adstar::run
