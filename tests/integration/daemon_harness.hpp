@@ -10,7 +10,9 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <spawn.h>
 #include <sstream>
@@ -57,23 +59,15 @@ class TemporaryDirectory {
 class Daemon {
  public:
   explicit Daemon(const std::string& scene, const std::vector<std::string>& more = {}) {
-    const std::string file = directory_.write("scene.toml", scene).string();
-    std::vector<std::string> words{ADSTARD, file};
+    std::vector<std::string> words{directory_.write("scene.toml", scene).string()};
     words.insert(words.end(), more.begin(), more.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) {
-      argv.push_back(word.data());
-    }
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 2, log_file().c_str(), O_WRONLY | O_CREAT | O_APPEND,
-                                     0644);
-    if (posix_spawn(&pid_, ADSTARD, &actions, nullptr, argv.data(), environ) != 0) {
-      std::perror("starting adstard");
-      std::abort();
-    }
-    posix_spawn_file_actions_destroy(&actions);
+    start(words);
+  }
+  /// Goes on with a run.
+  static std::unique_ptr<Daemon> resuming(const std::filesystem::path& run) {
+    std::unique_ptr<Daemon> daemon(new Daemon);
+    daemon->start({"--resume", run.string()});
+    return daemon;
   }
   ~Daemon() {
     if (pid_ > 0) {
@@ -117,6 +111,26 @@ class Daemon {
   pid_t pid() const { return pid_; }
 
  private:
+  Daemon() = default;
+
+  void start(std::vector<std::string> words) {
+    words.insert(words.begin(), ADSTARD);
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+      argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 2, log_file().c_str(), O_WRONLY | O_CREAT | O_APPEND,
+                                     0644);
+    if (posix_spawn(&pid_, ADSTARD, &actions, nullptr, argv.data(), environ) != 0) {
+      std::perror("starting adstard");
+      std::abort();
+    }
+    posix_spawn_file_actions_destroy(&actions);
+  }
+
   std::string log_file() const { return (directory_.path() / "log").string(); }
 
   TemporaryDirectory directory_;
@@ -145,6 +159,9 @@ class GroundStation {
     momentum_.take([&](const adstar_MomentumState& s, const dds_sample_info_t&) {
       momentum[std::string(dds::text_of(s.spacecraft))] = s;
       ++momentum_samples;
+      if (on_momentum) {
+        on_momentum(s);
+      }
     });
     status_.take([&](const adstar_ServiceStatus& s, const dds_sample_info_t&) { status = s; });
   }
@@ -201,6 +218,7 @@ class GroundStation {
   std::map<std::string, adstar_AttitudeState> attitude;
   std::map<std::string, adstar_MomentumState> momentum;
   std::uint64_t momentum_samples = 0;
+  std::function<void(const adstar_MomentumState&)> on_momentum;
   std::optional<adstar_ServiceStatus> status;
 
  private:

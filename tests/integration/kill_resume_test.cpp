@@ -1,0 +1,140 @@
+// adstard killed -9 at random moments, gone on with --resume, commanded all the while: what it published
+// is never taken back, and in the end `adstar replay`, which flies the run from its scene without a
+// break, finds the same bits. ADSTAR_KILLS sets how often (target kill_resume: 100).
+
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/integration/daemon_harness.hpp"
+#include "tests/support/process.hpp"
+
+namespace adstar {
+namespace {
+
+using testing::Daemon;
+using testing::GroundStation;
+using testing::TemporaryDirectory;
+
+int kills_wanted() {
+  const char* const asked = std::getenv("ADSTAR_KILLS");
+  return asked == nullptr ? 8 : std::atoi(asked);
+}
+
+std::string kept_scene(const dds::ParticipantOptions& where, const std::filesystem::path& run,
+                       const std::string& more = "") {
+  return testing::paper_scene(
+      where, {.step = "10ms",
+              .rate = 20,
+              .telemetry_hz = 100,
+              .more = fmt::format("[run]\ndirectory = \"{}\"\ncheckpoint_every = \"3s\"\n"
+                                  "history = \"whole\"\n{}",
+                                  run.string(), more)});
+}
+
+/// What was said of a step once must be said again if it is said again.
+class Witness {
+ public:
+  void hear(const adstar_MomentumState& s) {
+    const auto& H = s.momentum_inertial_n_m_s;
+    const std::array<double, 3> heard{H.x, H.y, H.z};
+    const auto [known, is_new] = heard_.emplace(s.step, heard);
+    EXPECT_EQ(known->second, heard) << "step " << s.step << " was published with other bits";
+  }
+
+ private:
+  std::map<std::uint64_t, std::array<double, 3>> heard_;
+};
+
+TEST(KillResume, a_run_killed_at_any_moment_has_the_bits_of_one_that_was_not) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const std::filesystem::path run = home.path() / "run";
+  GroundStation ground(corner);
+  Witness witness;
+  ground.on_momentum = [&](const adstar_MomentumState& s) { witness.hear(s); };
+  std::mt19937_64 random(11);
+  const auto between = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
+  const auto command_something = [&] {
+    auto command = ground.command("sat1", {1e-3 * between(-20, 20), 1e-3 * between(-20, 20), 5e-3});
+    command.duration_ns = between(1, 3000) * std::int64_t{1'000'000};
+    return ground.send(command);
+  };
+
+  auto daemon = std::make_unique<Daemon>(kept_scene(corner, run));
+  ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << daemon->log();
+  std::uint64_t newest = 0;
+  for (int kills = 0; kills < kills_wanted(); ++kills) {
+    const auto samples = ground.momentum_samples;
+    for (int left = between(1, 5); left > 0; --left) {
+      ASSERT_TRUE(command_something()) << "kill " << kills << "\n" << daemon->log();
+    }
+    const auto wanted = samples + static_cast<std::uint64_t>(between(1, 200));
+    ASSERT_TRUE(ground.until([&] { return ground.momentum_samples >= wanted; })) << daemon->log();
+    newest = std::max<std::uint64_t>(newest, ground.momentum["sat1"].step);
+    daemon->signal(SIGKILL);
+    ASSERT_EQ(daemon->exit_code(), -SIGKILL);
+    daemon = Daemon::resuming(run);
+    const auto before = ground.momentum_samples;
+    ASSERT_TRUE(ground.until([&] {
+      return ground.momentum_samples > before && ground.momentum["sat1"].step > newest;
+    })) << "kill "
+        << kills << "\n"
+        << daemon->log();
+  }
+  ASSERT_TRUE(command_something());
+  ASSERT_EQ(daemon->stop(), 0) << daemon->log();
+
+  testing::Process replay({ADSTAR, "replay", run.string()});
+  EXPECT_EQ(replay.wait(std::chrono::seconds(120)), 0) << replay.out() << replay.err();
+  EXPECT_TRUE(replay.out().starts_with("steps 0 to ")) << replay.out();
+  EXPECT_NE(replay.out().find("same bits"), std::string::npos) << replay.out();
+  std::printf("%d kills; %s", kills_wanted(), replay.out().c_str());
+}
+
+TEST(KillResume, a_run_that_ended_goes_on_where_it_ended) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const std::filesystem::path run = home.path() / "run";
+  GroundStation ground(corner);
+  std::uint64_t stopped_at = 0;
+  {
+    Daemon daemon(kept_scene(corner, run));
+    ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > 100; })) << daemon.log();
+    ASSERT_EQ(daemon.stop(), 0) << daemon.log();
+    ASSERT_TRUE(ground.until(
+        [&] { return ground.status && ground.status->state == adstar_SERVICE_STOPPED; }));
+    stopped_at = ground.status->step;
+    EXPECT_EQ(ground.status->state_hash_step, stopped_at);
+  }
+  const auto daemon = Daemon::resuming(run);
+  ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > stopped_at; }))
+      << daemon->log();
+  EXPECT_NE(daemon->log().find(fmt::format("the run goes on at step {}", stopped_at)),
+            std::string::npos)
+      << daemon->log();
+  EXPECT_EQ(daemon->stop(), 0);
+}
+
+TEST(KillResume, a_directory_in_use_or_used_is_refused_with_the_remedy) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const std::filesystem::path run = home.path() / "run";
+  GroundStation ground(corner);
+  Daemon first(kept_scene(corner, run));
+  ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << first.log();
+  const auto second = Daemon::resuming(run);
+  EXPECT_EQ(second->exit_code(), 3);
+  EXPECT_NE(second->log().find("is flown by another adstard"), std::string::npos) << second->log();
+  ASSERT_EQ(first.stop(), 0);
+  Daemon third(kept_scene(corner, run));
+  EXPECT_EQ(third.exit_code(), 3);
+  EXPECT_NE(third.log().find("--resume"), std::string::npos) << third.log();
+}
+
+}  // namespace
+}  // namespace adstar
