@@ -86,7 +86,7 @@ runtime::TimingRecord Housekeeping::timing() const {
   timing.missed_beats = read(report.missed_beats);
   timing.caught_up_beats = read(report.caught_up_beats);
   timing.behind_ns = report.behind_ns.load(std::memory_order_relaxed);
-  const runtime::ThreadAccount now = runtime::account_of(thread_);
+  const runtime::ThreadAccount now = at_end_ ? *at_end_ : runtime::account_of(thread_);
   timing.account = {now.minor_faults - at_start_.minor_faults,
                     now.major_faults - at_start_.major_faults,
                     now.involuntary_switches - at_start_.involuntary_switches,
@@ -177,6 +177,12 @@ void Housekeeping::summarise() const {
         "{} beats late ({} after our own work, {} after the sleep), {} missed, {} caught up",
         now.late_beats, now.late_after_work, now.late_after_sleep, now.missed_beats,
         now.caught_up_beats);
+    spdlog::info("{} page faults, taken off the processor {} times; FIFO {}, memory {}, {}",
+                 now.account.minor_faults + now.account.major_faults,
+                 now.account.involuntary_switches,
+                 now.fifo_scheduling != 0 ? "in force" : "not in force",
+                 now.memory_locked != 0 ? "locked" : "not locked",
+                 now.cpu_pinned != 0 ? "pinned to a processor" : "on any processor");
   }
   spdlog::info("{} commands, {} of them refused", read(report.commands_received),
                read(report.commands_refused));

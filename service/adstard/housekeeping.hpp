@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "service/adstard/recorder.hpp"
 #include "service/runtime/real_time.hpp"
@@ -23,6 +24,9 @@ class Housekeeping {
     at_start_ = runtime::account_of(thread);
   }
 
+  /// While it is still there, after its last beat.
+  void thread_is_done() { at_end_ = runtime::account_of(thread_); }
+
   /// Writes status and timing for the bridge and logs changes since the last call. Once a second
   /// will do.
   void look(std::uint64_t bridge_restarts, const StateHash& hash, bool stopped);
@@ -42,6 +46,7 @@ class Housekeeping {
   runtime::MappedSegment& segment_;
   int thread_ = 0;
   runtime::ThreadAccount at_start_;
+  std::optional<runtime::ThreadAccount> at_end_;
   bool halt_said_ = false;
   std::array<std::uint64_t, runtime::kPhases> over_budget_seen_{};
   std::uint64_t unresolved_seen_ = 0;

@@ -143,6 +143,7 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   std::atomic<bool> stop{false};
   std::atomic<bool> prepared{false};
   std::atomic<bool> ended{false};
+  std::atomic<bool> dismissed{false};
   std::thread tick_thread([&] {
     runtime::make_thread_real_time(
         scene.simulation.pace == scene::Pace::clock ? scene.service.priority : 0, scene.service.cpu,
@@ -151,6 +152,7 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
     prepared.notify_one();
     tick.run(stop);
     ended.store(true);
+    dismissed.wait(false);  // the system's account of a thread ends with it
   });
   prepared.wait(false);
   for (const std::string& warning : real_time.warnings) {
@@ -180,6 +182,9 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
       next_look = now + kLookPeriod;
     }
   }
+  housekeeping.thread_is_done();
+  dismissed.store(true);
+  dismissed.notify_one();
   tick_thread.join();
 
   tick.publish_final(kBridgePatienceMs / 3);
