@@ -8,11 +8,12 @@ packages=(
   g++ cmake ninja-build                    # build
   libeigen3-dev                            # core
   cyclonedds-dev cyclonedds-tools          # DDS (C API) and idlc
+  openssl                                  # keys and certificates of deploy/security
   libspdlog-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libxxhash-dev
   libxsimd-dev                             # fleets: several bodies a register
 )
 if [[ "${1:-}" == "--tests" ]]; then
-  packages+=(clang clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
+  packages+=(clang libclang-rt-14-dev clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
              iproute2 git procps bash-completion)
 elif [[ -n "${1:-}" ]]; then
   echo "usage: install-deps.sh [--tests]" >&2

@@ -29,6 +29,9 @@ std::string values_of(const CLI::Option& option) {
   if (type == "SCENE") {
     return "__scene";
   }
+  if (type == "DIR") {
+    return "__directory";
+  }
   if (type == "FILE") {
     return "__file";
   }
@@ -87,6 +90,8 @@ constexpr const char* kEnd = R"(  esac
   case "$values" in
     __scene) compopt -o filenames
       mapfile -t COMPREPLY < <(compgen -d -- "$current"; compgen -f -X '!*.toml' -- "$current") ;;
+    __directory) compopt -o filenames
+      mapfile -t COMPREPLY < <(compgen -d -- "$current") ;;
     __file) compopt -o filenames
       mapfile -t COMPREPLY < <(compgen -f -- "$current") ;;
     *) mapfile -t COMPREPLY < <(compgen -W "$values" -- "$current") ;;

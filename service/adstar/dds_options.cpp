@@ -20,12 +20,21 @@ void add_dds_options(CLI::App& verb, dds::ParticipantOptions& options) {
       ->capture_default_str();
   verb.add_option("--partition", options.partition, "DDS partition (default: the default one)")
       ->type_name("NAME");
+  verb.add_option_function<std::string>(
+          "--security",
+          [&options](const std::string& directory) {
+            options.security = scene::security_files_in(directory);
+          },
+          "Directory with this client's keys and permissions, as deploy/security/make.sh makes it")
+      ->type_name("DIR")
+      ->envname("ADSTAR_SECURITY");
 }
 
 std::string place_of(const dds::ParticipantOptions& options) {
   return fmt::format(
-      "domain {}, interface {}, {}", options.domain, options.interface,
-      options.partition.empty() ? "default partition" : "partition '" + options.partition + "'");
+      "domain {}, interface {}, {}{}", options.domain, options.interface,
+      options.partition.empty() ? "default partition" : "partition '" + options.partition + "'",
+      options.security ? ", secured" : "");
 }
 
 void log_to_stderr(const std::string& verb) {

@@ -31,6 +31,12 @@ int run(const cli::Verb& verb) {
   } catch (const scene::SceneError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return cli::kUsage;
+  } catch (const dds::ConfigurationError& error) {
+    complain(error.what());
+    return cli::kUsage;
+  } catch (const dds::NotAllowed& error) {
+    complain(error.what());
+    return cli::kRefused;
   } catch (const dds::Error& error) {
     complain(error.what());
     return cli::kFailed;

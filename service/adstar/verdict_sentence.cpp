@@ -85,8 +85,10 @@ std::string no_answer_sentence(bool heard_by_anyone, std::int64_t timeout_ns,
                    from, within, place_of(place))
              : fmt::format(
                    "no answer{} within {}: nobody listens to commands on {}; is adstard running, "
-                   "and are domain, interface and partition those of its scene?",
-                   from, within, place_of(place));
+                   "and are domain, interface and partition those of its scene?{}",
+                   from, within, place_of(place),
+                   place.security ? " Do its authorities vouch for this client, and the other way?"
+                                  : " A secured one hears only clients with --security.");
 }
 
 }  // namespace adstar::cli

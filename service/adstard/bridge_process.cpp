@@ -141,6 +141,12 @@ bool BridgeProcess::alive() {
   return false;
 }
 
+void BridgeProcess::kill_now() const {
+  if (pid_ > 0) {
+    kill(pid_, SIGKILL);
+  }
+}
+
 bool BridgeProcess::restart_when_due(std::int64_t now_ns) {
   if (pid_ >= 0 || now_ns < restart_at_ns_) {
     return false;

@@ -38,6 +38,9 @@ class BridgeProcess {
   const std::string& how() const noexcept { return how_; }
   int exit_code() const noexcept { return exit_code_; }
 
+  /// For one that no longer does its work; alive() then tells its end.
+  void kill_now() const;
+
   /// Restarts it if it has ended and its back-off is over; true when it did. `now_ns` is monotonic.
   bool restart_when_due(std::int64_t now_ns);
   std::uint64_t restarts() const noexcept { return restarts_; }

@@ -8,11 +8,13 @@
 #include <sys/random.h>
 #include <thread>
 #include <time.h>
+#include <vector>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "service/adstard/bridge_process.hpp"
+#include "service/adstard/bridge_pulse.hpp"
 #include "service/adstard/housekeeping.hpp"
 #include "service/adstard/keeping.hpp"
 #include "service/adstard/options.hpp"
@@ -59,6 +61,19 @@ std::string bridge_message(const runtime::SharedSegment& segment) {
     message += c >= ' ' && c <= '~' ? c : ' ';
   }
   return message;
+}
+
+void require_security_files(const scene::Scene& scene, const std::string& file) {
+  if (!scene.dds.security) {
+    return;
+  }
+  std::vector<std::string> complaints = scene::complaints_about(*scene.dds.security);
+  for (std::string& complaint : complaints) {
+    complaint = fmt::format("{}: dds.security.{}", file, complaint);
+  }
+  if (!complaints.empty()) {
+    throw scene::SceneError(complaints);
+  }
 }
 
 /// Whether the scene fits this machine, by its own measure; says what it found.
@@ -160,6 +175,8 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   }
   housekeeping.watch_thread(real_time.thread);
 
+  BridgePulse pulse;
+  pulse.begin(segment->bridge_rounds.load(), clock_ns(CLOCK_MONOTONIC));
   bool bridge_was_alive = true;
   std::int64_t next_look = 0;
   while (!ended.load()) {
@@ -176,6 +193,12 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
     if (!bridge_is_alive) {
       segment.restore_header();
       bridge_was_alive = bridge.restart_when_due(now);
+      pulse.begin(segment->bridge_rounds.load(), now);
+    } else if (pulse.silent(segment->bridge_rounds.load(), now)) {
+      spdlog::warn("the bridge has done nothing for {} and is killed",
+                   scene::format_duration(pulse.silent_ns() / kSecond * kSecond));
+      bridge.kill_now();
+      pulse.begin(segment->bridge_rounds.load(), now);
     }
     if (now >= next_look) {
       housekeeping.look(bridge.restarts(), keeping.newest_hash(), false);
@@ -213,6 +236,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a log reader that goes away must not end the run
   try {
     Plan plan = make_plan(*options);
+    require_security_files(plan.scene, options->scene_file);
     set_up_log(plan.scene.log, "adstard");
     if (!admitted(plan.scene)) {
       return kRefused;

@@ -76,6 +76,7 @@ void carry(runtime::SharedSegment& segment, Publisher& publisher, OtherServices&
   auto drained_by = Clock::time_point::max();
   while (true) {
     const std::uint32_t seen = segment.wake_count.load();
+    segment.bridge_rounds.fetch_add(1);
     // Read before the rings: adstard asks to stop only after its last push.
     const bool last_round = stopping(segment);
     const Publisher::Left left = publisher.publish_some();
@@ -114,7 +115,8 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
   if (!reattached) {
     set_state(*segment, runtime::BridgeState::starting);
   }
-  dds::Participant participant({scene.dds.domain, scene.dds.interface, scene.dds.partition});
+  dds::Participant participant(
+      {scene.dds.domain, scene.dds.interface, scene.dds.partition, scene.dds.security});
   const Directory directory(scene);
   dds::Writer<adstar_ServiceRoster> roster(participant);
   write_roster(roster, scene, options);
@@ -135,9 +137,11 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
     const std::size_t sockets = participant.bind_sockets_to_interface();
     segment->snapshot_requested.store(1);
     set_state(*segment, runtime::BridgeState::ready);
-    spdlog::info("service '{}' on interface {} domain {} partition '{}', {} spacecraft, {} sockets",
-                 options.service, scene.dds.interface, scene.dds.domain, scene.dds.partition,
-                 directory.size(), sockets);
+    spdlog::info(
+        "service '{}' on interface {} domain {} partition '{}', {} spacecraft, {} sockets, {}",
+        options.service, scene.dds.interface, scene.dds.domain, scene.dds.partition,
+        directory.size(), sockets,
+        scene.dds.security ? "secured" : "open to whoever reaches the interface");
     carry(*segment, publisher, others, statuses, intake, scene.dds);
     intake.check();
     const PublishedCounts& counts = publisher.counts();

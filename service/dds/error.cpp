@@ -18,7 +18,8 @@ std::string_view remedy(dds_return_t code) {
     case DDS_RETCODE_INCONSISTENT_POLICY:
       return "check [dds] in the scene (or the options given): domain, partition, interface";
     case DDS_RETCODE_NOT_ALLOWED_BY_SECURITY:
-      return "grant it in the permissions file of this participant";
+      return "its certificate and signed permissions do not allow it here and now; see "
+             "deploy/security/README.md";
     case DDS_RETCODE_TIMEOUT:
       return "the network or a reader is too slow; try again";
     default:
@@ -33,6 +34,9 @@ std::string describe(dds_return_t code, std::string_view call, std::string_view 
 }
 
 dds_return_t check(dds_return_t code, std::string_view call, std::string_view subject) {
+  if (code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY) {
+    throw NotAllowed(describe(code, call, subject));
+  }
   if (code < 0) {
     throw Error(describe(code, call, subject));
   }

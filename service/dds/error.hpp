@@ -13,6 +13,16 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What was asked for cannot be had as it is configured: the caller's files or options are wrong.
+struct ConfigurationError : Error {
+  using Error::Error;
+};
+
+/// The permissions of this participant do not allow it.
+struct NotAllowed : Error {
+  using Error::Error;
+};
+
 /// "dds_write on 'adstar/attitude_state' failed: Out of Resources; ..."
 std::string describe(dds_return_t code, std::string_view call, std::string_view subject);
 

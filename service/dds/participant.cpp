@@ -7,6 +7,7 @@
 #include "service/dds/incompatible_qos.hpp"
 #include "service/dds/log_sink.hpp"
 #include "service/dds/qos.hpp"
+#include "service/dds/security.hpp"
 
 namespace adstar::dds {
 namespace {
@@ -14,11 +15,11 @@ namespace {
 std::atomic<int> g_library_users{0};
 
 // Sizes: one datagram carries 500 fleet members. Lease: a dead peer is forgotten after two seconds,
-// not ten.
+// not ten. 507 bytes of a datagram are left to the signatures of DDS Security.
 std::string domain_configuration(const std::string& interface) {
   return fmt::format(
       R"(<General><Interfaces><NetworkInterface name="{}" {}/></Interfaces>)"
-      "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>64000B</FragmentSize></General>"
+      "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>64000B</FragmentSize></General>"
       "<Discovery><LeaseDuration>2s</LeaseDuration></Discovery>"
       "<Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal>",
       interface, interface == "lo" ? R"(multicast="true")" : "");
@@ -31,7 +32,10 @@ dds_entity_t create_domain(const ParticipantOptions& options) {
 }
 
 std::string domain_subject(const ParticipantOptions& options) {
-  return fmt::format("domain {} on interface '{}'", options.domain, options.interface);
+  return fmt::format("domain {} on interface '{}'{}", options.domain, options.interface,
+                     options.security ? fmt::format(" with identity '{}'",
+                                                    options.security->identity_certificate.string())
+                                      : "");
 }
 
 }  // namespace
@@ -54,7 +58,9 @@ Participant::Participant(ParticipantOptions options)
       domain_(create_domain(options_), "dds_create_domain", domain_subject(options_)) {
   bind_sockets_to_interface();
   const ListenerHandle listener = make_incompatible_qos_listener();
-  participant_ = Entity(dds_create_participant(options_.domain, nullptr, listener.get()),
+  const QosHandle security = options_.security ? make_security_qos(*options_.security)
+                                               : QosHandle(nullptr, &dds_delete_qos);
+  participant_ = Entity(dds_create_participant(options_.domain, security.get(), listener.get()),
                         "dds_create_participant", domain_subject(options_));
   const QosHandle partition = make_partition_qos(options_.partition.c_str());
   const std::string subject = fmt::format("partition '{}'", options_.partition);

@@ -6,6 +6,7 @@
 // demand.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,20 +14,22 @@
 
 #include "service/dds/device_binding.hpp"
 #include "service/dds/entity.hpp"
+#include "service/scene/security_files.hpp"
 
 namespace adstar::dds {
 
 struct ParticipantOptions {
   std::uint32_t domain = 0;
   std::string interface = "lo";
-  std::string partition;  ///< empty: the default partition
+  std::string partition = {};                         ///< empty: the default partition
+  std::optional<scene::SecurityFiles> security = {};  ///< none: unauthenticated
 };
 
 /// At most one per domain and process. Must outlive its readers, writers and wait sets.
 class Participant {
  public:
   /// Throws Error: no such interface, a domain out of range, a socket that cannot be confined, no
-  /// resources.
+  /// resources, security files that cannot be used or do not hold together.
   explicit Participant(ParticipantOptions options);
   ~Participant();
   Participant(const Participant&) = delete;

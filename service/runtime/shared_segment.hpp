@@ -32,6 +32,7 @@ struct SharedSegment {
   std::atomic<std::uint32_t> wake_count{
       0};  ///< futex word: rises when there is something to publish
   std::atomic<std::uint32_t> bridge_sleeps{0};  ///< 1 while the bridge waits on wake_count
+  std::atomic<std::uint32_t> bridge_rounds{0};  ///< by the bridge: rises with every round it makes
 
   SpscRing<CommandRecord, 4096> commands;      ///< bridge → tick
   SpscRing<VerdictRecord, 8192> verdicts;      ///< tick → bridge

@@ -54,7 +54,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   scene.budget = read_budget(root, scene.simulation);
   scene.run = read_run(root);
   scene.service = read_service(root);
-  scene.dds = read_dds(root);
+  scene.dds = read_dds(root, file);
   scene.log = read_log(root);
   root.refuse_unknown();
   if (complaints.count() > 0) {

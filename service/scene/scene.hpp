@@ -15,6 +15,7 @@
 #include "adstar/integrators/guard.hpp"
 #include "adstar/state.hpp"
 #include "adstar/torques/all.hpp"
+#include "service/scene/security_files.hpp"
 
 namespace adstar::scene {
 
@@ -91,6 +92,7 @@ struct Dds {
   std::uint32_t domain = 0;
   std::string partition;
   std::string interface = "lo";
+  std::optional<SecurityFiles> security;  ///< none: whoever reaches the interface is trusted
 };
 
 struct Log {

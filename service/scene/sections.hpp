@@ -32,7 +32,7 @@ Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fl
 Budget read_budget(Keys& root, const Simulation& simulation);
 Run read_run(Keys& root);
 Service read_service(Keys& root);
-Dds read_dds(Keys& root);
+Dds read_dds(Keys& root, const std::filesystem::path& file);
 Log read_log(Keys& root);
 
 /// "2026-01-01T00:00:00[.5]" in that scale, of a TOML date-time or a string; as Simulation::epoch.

@@ -17,6 +17,28 @@ std::string host_name() {
   return as_name(buffer.data());
 }
 
+/// All six or none: half of it would protect nothing, and look as if it did.
+std::optional<SecurityFiles> read_security(const Value& table, const std::filesystem::path& file) {
+  if (!table) {
+    return std::nullopt;
+  }
+  Keys keys(table, "[dds.security] on a line of its own");
+  SecurityFiles files;
+  for (const SecurityFile& each : kSecurityFiles) {
+    const std::string example = in_quotes("security/daemon/" + std::string(each.file_name));
+    const Want want{"the path of a file", example};
+    const Value value = keys.required(each.key, want);
+    if (const auto path = read_text(value, want)) {
+      files.*each.path = file.parent_path() / *path;
+      if (path->empty()) {
+        value.refuse(want.expected, want.example);
+      }
+    }
+  }
+  keys.refuse_unknown();
+  return files;
+}
+
 }  // namespace
 
 Service read_service(Keys& root) {
@@ -37,7 +59,7 @@ Service read_service(Keys& root) {
   return service;
 }
 
-Dds read_dds(Keys& root) {
+Dds read_dds(Keys& root, const std::filesystem::path& file) {
   Keys keys = root.section("dds", "[dds] on a line of its own");
   Dds dds;
   const Want domain{"an integer from 0 to 230", "0"};
@@ -53,6 +75,7 @@ Dds read_dds(Keys& root) {
       interface.refuse(network.expected, network.example);
     }
   }
+  dds.security = read_security(keys.optional("security"), file);
   keys.refuse_unknown();
   return dds;
 }

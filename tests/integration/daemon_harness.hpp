@@ -176,6 +176,9 @@ class GroundStation {
         deadline);
   }
 
+  /// Once, whatever becomes of it.
+  void write(const adstar_TorqueCommand& command) { commands_.write(command); }
+
   /// Writes until it is answered; the first answer.
   std::optional<adstar_CommandStatus> send(const adstar_TorqueCommand& command) {
     auto next = std::chrono::steady_clock::now();

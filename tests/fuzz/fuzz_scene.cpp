@@ -1,0 +1,59 @@
+// Any bytes as a scene: either a SceneError that says something, or a scene that keeps its promises.
+
+#include <cmath>
+#include <string_view>
+#include <variant>
+
+#include "service/scene/scene.hpp"
+#include "tests/fuzz/byte_stream.hpp"
+
+namespace {
+
+using namespace adstar;
+
+void require(bool holds, const char* what) {
+  if (!holds) {
+    fuzz::found(what);
+  }
+}
+
+void check_spacecraft(const scene::Spacecraft& craft) {
+  require(!craft.name.empty() && craft.name.size() <= 63, "a name is empty or too long");
+  require(craft.inertia_body_kg_m2.allFinite(), "an inertia is not finite");
+  require(craft.inertia_body_kg_m2.diagonal().minCoeff() > 0, "a moment is not positive");
+  require(std::isfinite(norm(craft.initial.H_I.value())), "a momentum is not finite");
+  const Quat<double>& q = craft.initial.q_IB;
+  require(std::fabs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-9,
+          "an attitude is not a rotation");
+  for (const scene::Actuator& actuator : craft.actuators) {
+    require(actuator.torque < craft.torques.size() &&
+                std::holds_alternative<Commanded<double>>(craft.torques[actuator.torque]),
+            "an actuator is no commanded torque");
+    require(norm(actuator.max_torque_n_m) < INFINITY, "an actuator has no limit");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  try {
+    const scene::Scene scene = scene::parse(text, "fuzz.toml", scene::Tables::skip);
+    require(scene.simulation.step_ns > 0, "the step is not positive");
+    require(!scene.simulation.duration_ns ||
+                (*scene.simulation.duration_ns > 0 &&
+                 *scene.simulation.duration_ns % scene.simulation.step_ns == 0),
+            "the duration is not whole steps");
+    require(scene::beat_ns(scene.simulation) > 0, "a beat takes no time");
+    require(!scene.spacecraft.empty(), "there is no spacecraft");
+    for (const scene::Spacecraft& craft : scene.spacecraft) {
+      check_spacecraft(craft);
+    }
+    for (const std::uint32_t index : scene.telemetry.watched) {
+      require(index < scene.spacecraft.size(), "a spacecraft is watched that does not exist");
+    }
+  } catch (const scene::SceneError& error) {
+    require(*error.what() != '\0', "a refusal says nothing");
+  }
+  return 0;
+}

@@ -1,0 +1,29 @@
+// A fleet whose step does nothing: the gate needs vehicles to hand torques to, and the steppers of
+// every scheme would take minutes to compile here.
+
+#include "service/runtime/fleet.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+class NoStep final : public Stepper {
+ public:
+  std::size_t step(std::span<Vehicle> /*vehicles*/, std::int64_t /*t_ns*/, std::int64_t /*h_ns*/,
+                   const StepLimits& /*limits*/) noexcept override {
+    return 0;
+  }
+};
+
+}  // namespace
+
+Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view /*scheme*/,
+             const StepLimits& limits, Lanewise /*lanewise*/, std::size_t /*threads*/)
+    : limits_(limits), stepper_(std::make_unique<NoStep>()) {
+  for (const scene::Spacecraft& craft : spacecraft) {
+    vehicles_.push_back({craft.initial, craft.torques, 0,
+                         RigidBody<double>(craft.inertia_body_kg_m2), craft.initial.H_I.value(),
+                         0});
+  }
+}
+
+}  // namespace adstar::runtime
