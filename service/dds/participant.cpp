@@ -60,8 +60,13 @@ Participant::Participant(ParticipantOptions options)
   const ListenerHandle listener = make_incompatible_qos_listener();
   const QosHandle security = options_.security ? make_security_qos(*options_.security)
                                                : QosHandle(nullptr, &dds_delete_qos);
-  participant_ = Entity(dds_create_participant(options_.domain, security.get(), listener.get()),
-                        "dds_create_participant", domain_subject(options_));
+  const dds_entity_t created =
+      dds_create_participant(options_.domain, security.get(), listener.get());
+  if (created < 0 && options_.security) {
+    // Whatever the code: files that do not hold together, or are not valid now.
+    throw ConfigurationError(describe(created, "dds_create_participant", domain_subject(options_)));
+  }
+  participant_ = Entity(created, "dds_create_participant", domain_subject(options_));
   const QosHandle partition = make_partition_qos(options_.partition.c_str());
   const std::string subject = fmt::format("partition '{}'", options_.partition);
   publisher_ = Entity(dds_create_publisher(handle(), partition.get(), nullptr),

@@ -116,11 +116,16 @@ std::string dds_report(const scene::Scene& scene) {
       dds.partition.empty() ? "default partition" : "partition " + dds.partition, dds.interface);
   if (dds.interface == "lo") {
     text += "  loopback only: nothing outside this machine hears or commands it\n";
-  } else {
+  } else if (!dds.security) {
     text += fmt::format(
         "  WARNING: whoever reaches interface {} can command these spacecraft; set interface = "
-        "\"lo\" unless that is meant\n",
+        "\"lo\", or see deploy/security/README.md\n",
         dds.interface);
+  }
+  if (dds.security) {
+    text += fmt::format("  DDS Security: certificate {}, permissions {}\n",
+                        dds.security->identity_certificate.string(),
+                        dds.security->permissions.string());
   }
   return text;
 }

@@ -1,8 +1,10 @@
 // A commander whose TorqueCommand knows no bounds: writes names of LENGTH characters, COUNT times,
-// to whoever listens on loopback. Its type is made from idl/ with the bounds taken out.
+// to whoever listens on loopback. Its type is made from idl/ with the bounds taken out, and does not
+// describe itself: a reader would see that it does not fit.
 //   wild_commander DOMAIN PARTITION LENGTH COUNT
 
 #include <command.h>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -30,9 +32,12 @@ dds_entity_t make_writer(dds_domainid_t domain, const char* partition) {
   const dds_entity_t participant =
       required(dds_create_participant(domain, nullptr, nullptr), "participant");
   adstar::dds::bind_udp_sockets("lo", {});
-  const dds_entity_t topic = required(dds_create_topic(participant, &adstar_TorqueCommand_desc,
-                                                       "adstar/torque_command", nullptr, nullptr),
-                                      "topic");
+  dds_topic_descriptor_t type = adstar_TorqueCommand_desc;
+  type.m_flagset &= ~static_cast<std::uint32_t>(DDS_TOPIC_XTYPES_METADATA);
+  type.type_information = {};
+  type.type_mapping = {};
+  const dds_entity_t topic = required(
+      dds_create_topic(participant, &type, "adstar/torque_command", nullptr, nullptr), "topic");
   dds_qos_t* const qos = dds_create_qos();
   dds_qset_partition1(qos, partition);
   const dds_entity_t publisher =
