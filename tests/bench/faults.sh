@@ -78,7 +78,7 @@ domain = $domain
 partition = "$partition"
 TOML
 
-sum() { grep -oE "[0-9]+ $1" "$log" | awk '{ n += $1 } END { print n + 0 }'; }
+sum() { { grep -oE "[0-9]+ $1" "$log" || true; } | awk '{ n += $1 } END { print n + 0 }'; }
 
 row() {  # fault
   log=$work/$1.log

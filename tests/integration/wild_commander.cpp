@@ -32,10 +32,20 @@ dds_entity_t make_writer(dds_domainid_t domain, const char* partition) {
   const dds_entity_t participant =
       required(dds_create_participant(domain, nullptr, nullptr), "participant");
   adstar::dds::bind_udp_sockets("lo", {});
-  dds_topic_descriptor_t type = adstar_TorqueCommand_desc;
-  type.m_flagset &= ~static_cast<std::uint32_t>(DDS_TOPIC_XTYPES_METADATA);
-  type.type_information = {};
-  type.type_mapping = {};
+  const dds_topic_descriptor_t& ours = adstar_TorqueCommand_desc;
+  const dds_topic_descriptor_t type{
+      .m_size = ours.m_size,
+      .m_align = ours.m_align,
+      .m_flagset = ours.m_flagset & ~static_cast<std::uint32_t>(DDS_TOPIC_XTYPES_METADATA),
+      .m_nkeys = ours.m_nkeys,
+      .m_typename = ours.m_typename,
+      .m_keys = ours.m_keys,
+      .m_nops = ours.m_nops,
+      .m_ops = ours.m_ops,
+      .m_meta = ours.m_meta,
+      .type_information = {},
+      .type_mapping = {},
+      .restrict_data_representation = ours.restrict_data_representation};
   const dds_entity_t topic = required(
       dds_create_topic(participant, &type, "adstar/torque_command", nullptr, nullptr), "topic");
   dds_qos_t* const qos = dds_create_qos();
