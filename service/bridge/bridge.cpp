@@ -70,8 +70,23 @@ void warn_of_rival(const std::optional<Rival>& rival, const scene::Dds& dds) {
   }
 }
 
-void carry(runtime::SharedSegment& segment, Publisher& publisher, OtherServices& others,
-           StatusWriter& statuses, const CommandIntake& intake, const scene::Dds& dds) {
+/// Commands in what the kernel dropped are nobody's to count, but that something was lost is.
+void warn_of_drops(const dds::Participant& participant) {
+  static std::uint64_t told = 0;
+  const std::uint64_t dropped = participant.datagrams_dropped();
+  static dds::RateLimit limit(1);
+  if (dropped > told && limit.admit()) {
+    spdlog::warn(
+        "{} datagrams lost before they were read: more came than the bridge can take; commanders "
+        "repeat theirs until they are answered",
+        dropped - told);
+    told = dropped;
+  }
+}
+
+void carry(const dds::Participant& participant, runtime::SharedSegment& segment,
+           Publisher& publisher, OtherServices& others, StatusWriter& statuses,
+           const CommandIntake& intake, const scene::Dds& dds) {
   auto next_chore = Clock::now();
   auto drained_by = Clock::time_point::max();
   while (true) {
@@ -91,6 +106,7 @@ void carry(runtime::SharedSegment& segment, Publisher& publisher, OtherServices&
       next_chore = now + 100ms;
       intake.check();
       warn_of_rival(others.poll(), dds);
+      warn_of_drops(participant);
       statuses.forget_silent(kCommanderSilence, now);
     }
     if (left != Publisher::Left::more) {
@@ -131,6 +147,9 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
   StatusWriter statuses(participant);
   Publisher publisher(participant, segment, scene, directory, options, statuses);
   // What waited while nobody read is stale; verdicts are answers still owed.
+  if (const std::size_t stale = segment->telemetry.size(); reattached && stale > 0) {
+    spdlog::warn("{} telemetry samples lost: they waited while there was no bridge", stale);
+  }
   segment->telemetry.skip_all();
   {
     const CommandIntake intake(participant, *segment, directory, others, statuses, options.service);
@@ -142,7 +161,7 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
         options.service, scene.dds.interface, scene.dds.domain, scene.dds.partition,
         directory.size(), sockets,
         scene.dds.security ? "secured" : "open to whoever reaches the interface");
-    carry(*segment, publisher, others, statuses, intake, scene.dds);
+    carry(participant, *segment, publisher, others, statuses, intake, scene.dds);
     intake.check();
     const PublishedCounts& counts = publisher.counts();
     spdlog::info(

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <linux/sock_diag.h>
 #include <memory>
 #include <net/if.h>
 #include <netinet/in.h>
@@ -83,6 +84,19 @@ std::size_t bind_udp_sockets(const std::string& interface, const std::vector<Soc
     ++bound;
   }
   return bound;
+}
+
+std::uint64_t datagrams_dropped(const std::vector<SocketId>& spared) {
+  std::uint64_t dropped = 0;
+  for (const SocketId& socket : open_udp_sockets()) {
+    std::array<std::uint32_t, SK_MEMINFO_VARS> account{};
+    socklen_t size = sizeof account;
+    if (std::find(spared.begin(), spared.end(), socket) == spared.end() &&
+        getsockopt(socket.first, SOL_SOCKET, SO_MEMINFO, account.data(), &size) == 0) {
+      dropped += account[SK_MEMINFO_DROPS];
+    }
+  }
+  return dropped;
 }
 
 void require_interface(const std::string& interface) {

@@ -3,6 +3,7 @@
 // told to use, so a datagram that arrives on any other interface would reach them. SO_BINDTODEVICE
 // closes that (Linux 5.7 and later allow it without privileges).
 
+#include <cstdint>
 #include <string>
 #include <sys/types.h>
 #include <utility>
@@ -20,6 +21,9 @@ std::vector<SocketId> open_udp_sockets();
 /// Binds every open UDP socket but `spared` to the interface and reads the binding back. Returns
 /// how many are bound. Throws Error: a socket that listens to the world must not go unnoticed.
 std::size_t bind_udp_sockets(const std::string& interface, const std::vector<SocketId>& spared);
+
+/// Datagrams that the kernel dropped because nobody read these sockets in time. `spared` are not counted.
+std::uint64_t datagrams_dropped(const std::vector<SocketId>& spared);
 
 /// Throws Error with the names that exist when there is no such interface.
 void require_interface(const std::string& interface);

@@ -39,6 +39,9 @@ class Participant {
   /// entities are made.
   std::size_t bind_sockets_to_interface();
 
+  /// Datagrams that came faster than Cyclone read them, since the beginning.
+  std::uint64_t datagrams_dropped() const { return dds::datagrams_dropped(foreign_sockets_); }
+
   dds_entity_t handle() const noexcept { return participant_.handle(); }
   dds_entity_t publisher() const noexcept { return publisher_.handle(); }
   dds_entity_t subscriber() const noexcept { return subscriber_.handle(); }

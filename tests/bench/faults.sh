@@ -99,7 +99,7 @@ row() {  # fault
   steps=$(grep -oE '[0-9]+ steps of' "$log" | tail -n 1 | cut -d' ' -f1)
   missed=$(grep -oE '[0-9]+ missed,' "$log" | tail -n 1 | cut -d' ' -f1)
   restarts=$(grep -c 'the bridge is started again' "$log" || true)
-  lost="$(sum 'commands lost') / $(sum 'verdicts lost') / $(sum 'telemetry samples lost')"
+  lost="$(sum '(commands|datagrams) lost') / $(sum 'verdicts lost') / $(sum 'telemetry samples lost')"
   body=$(grep -oE 'tick body p50 [0-9.]+ us, p99.9 [0-9.]+' "$log" | awk '{ print $7 }')
   printf '| %s | %s of %s | %s | %s | %s | %s |\n' "$what" "$steps" $((seconds * 1000)) "$missed" "$restarts" \
     "$lost" "$body"

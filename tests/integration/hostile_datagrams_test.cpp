@@ -66,5 +66,30 @@ TEST(HostileDatagrams, cost_no_step_and_bounded_memory_and_log_and_the_service_i
   testing::stop_and_expect_untouched(daemon, ground, kStep_ns);
 }
 
+TEST(HostileDatagrams, that_the_kernel_drops_because_nobody_reads_are_counted_and_told) {
+  const auto corner = testing::private_corner();
+  Daemon daemon(testing::scene_with_free_body(corner, {}));
+  {
+    GroundStation ground(corner);
+    ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("free1"); })) << daemon.log();
+  }
+  const pid_t bridge = daemon.bridge();
+  const auto ports = testing::udp_ports_of(bridge);
+  ASSERT_FALSE(ports.empty());
+  ASSERT_EQ(kill(bridge, SIGSTOP), 0);
+  LoopbackSocket socket;
+  const Datagram large(60'000, 0);
+  for (int i = 0; i < 500; ++i) {  // 30 MB: more than any socket keeps
+    for (const std::uint16_t port : ports) {
+      socket.send(large, port);
+    }
+  }
+  ASSERT_EQ(kill(bridge, SIGCONT), 0);
+  EXPECT_TRUE(testing::eventually([&] {
+    return daemon.log().find("datagrams lost before they were read") != std::string::npos;
+  })) << daemon.log();
+  EXPECT_EQ(daemon.stop(), 0) << daemon.log();
+}
+
 }  // namespace
 }  // namespace adstar
