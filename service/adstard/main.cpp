@@ -236,7 +236,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a log reader that goes away must not end the run
   try {
     Plan plan = make_plan(*options);
-    require_security_files(plan.scene, options->scene_file);
+    require_security_files(plan.scene, plan.file);
     set_up_log(plan.scene.log, "adstard");
     if (!admitted(plan.scene)) {
       return kRefused;
