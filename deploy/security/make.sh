@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Makes what DDS Security asks for: two certificate authorities, and a directory for each participant.
 #   bash deploy/security/make.sh [--days N] DIR             authorities, a daemon, a commander and a watcher
-#   bash deploy/security/make.sh [--days N] DIR NAME ROLE   one more participant (daemon, commander or watcher)
+#   bash deploy/security/make.sh [--days N] DIR NAME ROLE   one more: daemon, operator, commander, watcher
 # Nothing that is there already is overwritten. What each file is: deploy/security/README.md.
 set -euo pipefail
 umask 077
 
 fail() { echo "make.sh: $1" >&2; exit "${2:-1}"; }
-usage() { fail "usage: make.sh [--days N] DIR [NAME daemon|commander|watcher]" 2; }
+usage() { fail "usage: make.sh [--days N] DIR [NAME daemon|operator|commander|watcher]" 2; }
 
 days=365
 if [[ "${1:-}" == --days ]]; then
@@ -20,7 +20,11 @@ command -v openssl >/dev/null || fail "openssl is missing; try: bash deploy/inst
 
 dir=$1
 authorities=$dir/authorities
-telemetry=(command_status attitude_state momentum_state fleet_state service_status step_timing service_roster)
+# Every topic of service/dds/topics.hpp: what moves a daemon, and what it says.
+torques=(torque_command)
+clock=(step_request run_control)
+telemetry=(command_status attitude_state momentum_state fleet_state service_status step_timing service_roster
+  step_reply run_control_status)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -56,8 +60,22 @@ sign() {  # document, signed document, directory of the authorities
 }
 
 # The writer of a command gives its keys to readers of commands only: whoever may merely watch cannot sign in its name.
+topic_rule() {  # expression, protection of its messages
+  cat <<XML
+        <topic_rule>
+          <topic_expression>$1</topic_expression>
+          <enable_discovery_protection>true</enable_discovery_protection>
+          <enable_liveliness_protection>true</enable_liveliness_protection>
+          <enable_read_access_control>true</enable_read_access_control>
+          <enable_write_access_control>true</enable_write_access_control>
+          <metadata_protection_kind>$2</metadata_protection_kind>
+          <data_protection_kind>NONE</data_protection_kind>
+        </topic_rule>
+XML
+}
+
 governance() {
-  cat <<'XML'
+  cat <<XML
 <?xml version="1.0" encoding="UTF-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="https://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_governance.xsd">
   <domain_access_rules>
@@ -69,24 +87,8 @@ governance() {
       <liveliness_protection_kind>SIGN</liveliness_protection_kind>
       <rtps_protection_kind>SIGN</rtps_protection_kind>
       <topic_access_rules>
-        <topic_rule>
-          <topic_expression>adstar/torque_command</topic_expression>
-          <enable_discovery_protection>true</enable_discovery_protection>
-          <enable_liveliness_protection>true</enable_liveliness_protection>
-          <enable_read_access_control>true</enable_read_access_control>
-          <enable_write_access_control>true</enable_write_access_control>
-          <metadata_protection_kind>SIGN</metadata_protection_kind>
-          <data_protection_kind>NONE</data_protection_kind>
-        </topic_rule>
-        <topic_rule>
-          <topic_expression>*</topic_expression>
-          <enable_discovery_protection>true</enable_discovery_protection>
-          <enable_liveliness_protection>true</enable_liveliness_protection>
-          <enable_read_access_control>true</enable_read_access_control>
-          <enable_write_access_control>true</enable_write_access_control>
-          <metadata_protection_kind>NONE</metadata_protection_kind>
-          <data_protection_kind>NONE</data_protection_kind>
-        </topic_rule>
+$(for topic in "${torques[@]}" "${clock[@]}"; do topic_rule "adstar/$topic" SIGN; done)
+$(topic_rule '*' NONE)
       </topic_access_rules>
     </domain_rule>
   </domain_access_rules>
@@ -105,8 +107,9 @@ criteria() {  # publish or subscribe, topics...
 
 rules() {  # role
   case "$1" in
-    daemon) criteria publish "${telemetry[@]}"; criteria subscribe torque_command "${telemetry[@]}" ;;
-    commander) criteria publish torque_command; criteria subscribe torque_command "${telemetry[@]}" ;;
+    daemon) criteria publish "${telemetry[@]}"; criteria subscribe "${torques[@]}" "${clock[@]}" "${telemetry[@]}" ;;
+    operator) criteria publish "${torques[@]}" "${clock[@]}"; criteria subscribe "${torques[@]}" "${clock[@]}" "${telemetry[@]}" ;;
+    commander) criteria publish "${torques[@]}"; criteria subscribe "${torques[@]}" "${telemetry[@]}" ;;
     watcher) criteria subscribe "${telemetry[@]}" ;;
   esac
 }
@@ -151,7 +154,7 @@ make_participant() {  # where, name, role, directory of the authorities
 if [[ $# -eq 3 ]]; then
   [[ "$2" =~ ^[A-Za-z0-9_][A-Za-z0-9_.-]{0,62}$ && "$2" != authorities ]] ||
     fail "got the name '$2', expected 1 to 63 characters out of A-Z a-z 0-9 _ . -" 2
-  [[ "$3" =~ ^(daemon|commander|watcher)$ ]] || usage
+  [[ "$3" =~ ^(daemon|operator|commander|watcher)$ ]] || usage
   [[ -r "$authorities/identity_ca.key" && -r "$authorities/permissions_ca.key" ]] ||
     fail "$authorities has no authorities; make them first: make.sh $dir"
   [[ ! -e "$dir/$2" ]] || fail "$dir/$2 exists; choose another name, or move it away"

@@ -105,6 +105,27 @@ std::optional<adstar_MomentumState> momentum_now(const dds::ParticipantOptions& 
 
 const Vec3<double> kUnmoved{0.9144 * 0.45549, 1.098 * 0.82623, 1.66 * 0.03476};
 
+/// What make.sh signed into somebody's permissions.
+std::string permissions_of(const std::string& who) {
+  std::ostringstream text;
+  text << std::ifstream(authorities().files(who).permissions).rdbuf();
+  return text.str();
+}
+
+TEST(Security, every_topic_there_is_has_a_place_in_the_permissions) {
+  authorities().make({"ours", "flight_director", "operator"});
+  const std::string daemon = permissions_of("ours/daemon");
+  const std::string director = permissions_of("ours/flight_director");
+  std::apply(
+      [&](const auto&... topic) {
+        for (const std::string name : {std::string(topic.name)...}) {
+          EXPECT_TRUE(contains(daemon, "<topic>" + name + "</topic>")) << name;
+          EXPECT_TRUE(contains(director, "<topic>" + name + "</topic>")) << name;
+        }
+      },
+      dds::kTopics);
+}
+
 TEST(Security, a_commander_moves_the_spacecraft_also_through_the_next_bridge) {
   const auto corner = private_corner();
   Daemon daemon(secured_scene(corner));
