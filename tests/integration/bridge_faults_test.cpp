@@ -50,7 +50,8 @@ TEST(BridgeFaults, telemetry_and_answers_that_a_stopped_bridge_did_not_take_are_
   const auto corner = testing::private_corner();
   // Fast enough to fill the ring of 16384 while the bridge stands still.
   Daemon daemon(testing::scene_with_free_body(
-      corner, {.step = "100us", .telemetry_hz = 10'000, .more = "[log]\nlevel = \"info\"\n"}));
+      corner,
+      {.step = "100us", .telemetry_hz = 10'000, .more = "[budget]\nadmission = \"warn\"\n"}));
   GroundStation ground(corner);
   ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("free1"); })) << daemon.log();
   const pid_t bridge = daemon.bridge();

@@ -223,12 +223,13 @@ TEST(Security, permissions_that_somebody_signed_for_himself_move_nothing) {
 
 TEST(Security, carries_fleet_samples_of_the_largest_size) {
   const auto corner = private_corner();
-  Daemon daemon(fmt::format(
-      "[simulation]\nstep = \"20ms\"\n[telemetry]\nfleet_hz = 5\n[dds]\ndomain = {}\npartition = "
-      "\"{}\"\ninterface = \"{}\"\n{}[[spacecraft]]\nname = \"f{{:05}}\"\ncount = "
-      "1200\ninertia_body_kg_m2 = [0.9, 1.1, 1.6]\n",
-      corner.domain, corner.partition, corner.interface,
-      security_section(authorities().files("ours/daemon"))));
+  Daemon daemon(
+      fmt::format("[simulation]\nstep = \"20ms\"\n[budget]\nadmission = "
+                  "\"warn\"\n[telemetry]\nfleet_hz = 5\n[dds]\ndomain = {}\npartition = "
+                  "\"{}\"\ninterface = \"{}\"\n{}[[spacecraft]]\nname = \"f{{:05}}\"\ncount = "
+                  "1200\ninertia_body_kg_m2 = [0.9, 1.1, 1.6]\n",
+                  corner.domain, corner.partition, corner.interface,
+                  security_section(authorities().files("ours/daemon"))));
   {
     const dds::Participant participant(as(corner, authorities().files("ours/watcher")));
     dds::Reader<adstar_FleetState> reader(participant);
