@@ -92,7 +92,10 @@ row() {  # fault
   "fault_$1" > "$work/$1.said" 2>&1 &
   local injector=$!
   wait "$daemon"
-  kill "$injector" 2>/dev/null || true
+  # By its number alone it might be somebody else by now.
+  if grep -qx "$injector" <<< "$(jobs -pr)"; then
+    kill "$injector" 2>/dev/null || true
+  fi
   wait "$injector" 2>/dev/null || true
   what=$(declare -f "fault_$1" | sed -n 's/.*what="\([^"]*\)".*/\1/p')
   local steps missed restarts lost body
