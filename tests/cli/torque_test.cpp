@@ -180,7 +180,7 @@ TEST(Torque, nobody_at_all_is_exit_code_4_and_says_what_to_check) {
             "interface lo, partition '" +
                 place.partition +
                 "'; is adstard running, and are domain, interface and partition those of its "
-                "scene?\n");
+                "scene? A secured one hears only clients with --security.\n");
 }
 
 TEST(Torque, two_commanders_have_two_identities) {
