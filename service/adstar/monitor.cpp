@@ -14,6 +14,7 @@
 #include "service/adstar/failure.hpp"
 #include "service/adstar/live_table.hpp"
 #include "service/adstar/output.hpp"
+#include "service/adstar/service_state.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/telemetry_feed.hpp"
 #include "service/adstar/usage.hpp"
@@ -143,7 +144,7 @@ void draw_table(TelemetryFeed& feed, Watch& watch, const dds::ParticipantOptions
     if (const std::string complaint = watch.complaint(feed); !complaint.empty()) {
       table.set_note(complaint);
     } else if (!rows.empty()) {
-      table.set_note({});
+      table.set_note(standing_clocks(feed.services()));
     }
     if (now >= next_frame) {
       screen.draw(table.text(Screen::size(), now));

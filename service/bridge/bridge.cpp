@@ -71,7 +71,7 @@ void warn_of_rival(const std::optional<Rival>& rival, const scene::Dds& dds) {
 }
 
 void carry(runtime::SharedSegment& segment, Publisher& publisher, OtherServices& others,
-           StatusWriter& statuses, const CommandIntake& intake, const scene::Dds& dds) {
+           AnswerWriters& answers, const CommandIntake& intake, const scene::Dds& dds) {
   auto next_chore = Clock::now();
   auto drained_by = Clock::time_point::max();
   while (true) {
@@ -90,7 +90,7 @@ void carry(runtime::SharedSegment& segment, Publisher& publisher, OtherServices&
       next_chore = now + 100ms;
       intake.check();
       warn_of_rival(others.poll(), dds);
-      statuses.forget_silent(kCommanderSilence, now);
+      answers.forget_silent(kCommanderSilence, now);
     }
     if (left != Publisher::Left::more) {
       runtime::sleep_until_woken(segment, seen, left == Publisher::Left::fleet ? 1 : 50);
@@ -126,19 +126,20 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
     return kRefused;
   }
 
-  StatusWriter statuses(participant);
-  Publisher publisher(participant, segment, scene, directory, options, statuses);
+  AnswerWriters answers(participant);
+  Publisher publisher(participant, segment, scene, directory, options, answers);
   // What waited while nobody read is stale; verdicts are answers still owed.
   segment->telemetry.skip_all();
   {
-    const CommandIntake intake(participant, *segment, directory, others, statuses, options.service);
+    const CommandIntake intake(participant, *segment, directory, others, answers.commands,
+                               options.service);
     const std::size_t sockets = participant.bind_sockets_to_interface();
     segment->snapshot_requested.store(1);
     set_state(*segment, runtime::BridgeState::ready);
     spdlog::info("service '{}' on interface {} domain {} partition '{}', {} spacecraft, {} sockets",
                  options.service, scene.dds.interface, scene.dds.domain, scene.dds.partition,
                  directory.size(), sockets);
-    carry(*segment, publisher, others, statuses, intake, scene.dds);
+    carry(*segment, publisher, others, answers, intake, scene.dds);
     intake.check();
     const PublishedCounts& counts = publisher.counts();
     spdlog::info(

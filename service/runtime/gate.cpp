@@ -165,7 +165,7 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
       return;
     }
   }
-  const bool waits = verdict.start_ns >= beat.t_ns + beat.h_ns;
+  const bool waits = beat.standing || verdict.start_ns >= beat.t_ns + beat.h_ns;
   verdict.reason = make_room(actuator, command.priority, verdict.start_ns, waits);
   if (verdict.reason != Reason::none) {
     verdict.verdict = Verdict::refused;
@@ -263,6 +263,27 @@ void CommandGate::begin(const Beat& beat, Fleet* fleet) noexcept {
       ++i;
     }
   }
+}
+
+void CommandGate::reset(const Beat& beat) noexcept {
+  for (const std::uint32_t number : busy_) {
+    Actuator& actuator = actuators_[number];
+    while (actuator.head != kNone) {
+      const std::uint32_t entry = actuator.head;
+      const Live& live = pool_[entry];
+      if (!live.begun) {
+        VerdictRecord verdict = live.verdict;
+        verdict.verdict = Verdict::superseded;
+        verdict.step = beat.step;
+        verdict.time_ns = beat.t_ns;
+        conclude(memory_.at(live.stream), verdict);
+      }
+      actuator.head = live.next;
+      release(entry);
+    }
+    actuator.busy = false;
+  }
+  busy_.clear();
 }
 
 void CommandGate::advance(Actuator& actuator, const Beat& beat, Fleet* fleet) noexcept {
