@@ -42,6 +42,7 @@ class Watch {
   explicit Watch(const Options& options) : options_(options) {}
 
   void count(std::size_t rows) { rows_ += rows; }
+  bool heard() const { return rows_ > 0; }
   std::uint64_t still_wanted() const {
     return options_.samples ? *options_.samples - std::min(rows_, *options_.samples)
                             : ~std::uint64_t{0};
@@ -143,7 +144,7 @@ void draw_table(TelemetryFeed& feed, Watch& watch, const dds::ParticipantOptions
     watch.check_timeout();
     if (const std::string complaint = watch.complaint(feed); !complaint.empty()) {
       table.set_note(complaint);
-    } else if (!rows.empty()) {
+    } else if (watch.heard()) {
       table.set_note(standing_clocks(feed.services()));
     }
     if (now >= next_frame) {

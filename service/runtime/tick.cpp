@@ -144,11 +144,13 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
   }
   publish_counters();
 
-  const bool last_asked_for = step_requests_.allowed() == 1;
+  const bool ended = n + 1 == last_step_;
+  const std::uint64_t allowed = step_requests_.allowed();
+  const bool last_asked_for = allowed == 1 || (allowed > 1 && ended);
   told_ =
       segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0 || last_asked_for;
   publish(n + 1, told_);
-  step_requests_.stepped(face(), n + 1 == last_step_);
+  step_requests_.stepped(face(), ended);
   if (last_asked_for) {
     wake_bridge(*segment_);
   }

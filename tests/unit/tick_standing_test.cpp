@@ -165,6 +165,7 @@ TEST(Lockstep, steps_to_the_end_of_the_run_and_says_so) {
   const StepReplyRecord last = the.step(100);
   EXPECT_EQ(last.outcome, StepOutcome::ended);
   EXPECT_EQ(last.step, 10U);
+  EXPECT_EQ(telemetry_of(the.segment).back().topics, kTopicAttitude | kTopicMomentum);
   EXPECT_TRUE(Running::wait_for([&] { return the.ended.load(); }));
 }
 
