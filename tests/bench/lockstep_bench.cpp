@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
   const std::size_t requests = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 2000;
   const auto corner = testing::private_corner();
   testing::Daemon daemon(testing::lockstep_scene(corner));
-  testing::ClockHolder holder(corner);
+  const dds::Participant participant(corner);
+  testing::ClockHolder holder(participant);
   if (!holder.step(1)) {
     std::fprintf(stderr, "no answer; the daemon said:\n%s", daemon.log().c_str());
     return 1;

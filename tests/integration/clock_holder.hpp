@@ -22,14 +22,13 @@ inline std::string lockstep_scene(const dds::ParticipantOptions& where, SceneOpt
 
 class ClockHolder {
  public:
-  explicit ClockHolder(const dds::ParticipantOptions& where, std::uint64_t id = 1)
+  explicit ClockHolder(const dds::Participant& participant, std::uint64_t id = 1)
       : id_{0x5678'0000 + id, static_cast<std::uint64_t>(getpid())},
-        participant_(where),
-        steps_(participant_),
-        replies_(participant_),
-        controls_(participant_),
-        statuses_(participant_),
-        wait_set_(participant_) {
+        steps_(participant),
+        replies_(participant),
+        controls_(participant),
+        statuses_(participant),
+        wait_set_(participant) {
     wait_set_.attach(replies_);
     wait_set_.attach(statuses_);
   }
@@ -106,7 +105,6 @@ class ClockHolder {
 
   adstar_CommanderId id_;
   std::uint64_t sequence_ = 0;
-  dds::Participant participant_;
   dds::Writer<adstar_StepRequest> steps_;
   dds::Reader<adstar_StepReply> replies_;
   dds::Writer<adstar_RunControl> controls_;

@@ -29,7 +29,7 @@ std::array<double, 3> momentum_of(const adstar_MomentumState& state) {
 
 /// What the scene's body would be after that many steps under the command.
 runtime::TelemetryRecord flown(const std::string& text, std::int64_t steps,
-                               const Commanded<double>::Interval& command) {
+                               const TorqueInterval<double>& command) {
   const scene::Scene scene = scene::parse(text, "test.toml");
   runtime::Fleet fleet(scene.spacecraft, scene.simulation.scheme, scene.simulation.limits);
   auto& commanded = std::get<Commanded<double>>(fleet.vehicles()[0].torques[0]);
@@ -46,7 +46,7 @@ TEST(Lockstep, a_flight_program_drives_time_and_the_bits_are_those_of_its_comman
   const std::string scene = lockstep_scene(corner);
   Daemon daemon(scene);
   GroundStation ground(corner);
-  ClockHolder holder(corner);
+  ClockHolder holder(ground.participant());
   const auto begun = holder.step(0);
   ASSERT_TRUE(begun.has_value()) << daemon.log();
   EXPECT_EQ(begun->step, 0U) << "nobody asked for a step before";
@@ -81,7 +81,8 @@ TEST(Lockstep, a_flight_program_drives_time_and_the_bits_are_those_of_its_comman
 TEST(Lockstep, repeated_requests_step_once_and_a_second_asker_has_a_clock_of_the_same_time) {
   const auto corner = private_corner();
   Daemon daemon(lockstep_scene(corner));
-  ClockHolder holder(corner), other(corner, 2);
+  const dds::Participant participant(corner);
+  ClockHolder holder(participant), other(participant, 2);
   ASSERT_TRUE(holder.step(0).has_value()) << daemon.log();
   const auto request = holder.request(3);
   for (int i = 0; i < 20; ++i) {
@@ -115,7 +116,8 @@ TEST(Lockstep, says_that_it_waits_and_warns_once_that_nobody_asks) {
 TEST(Lockstep, outlives_its_bridge) {
   const auto corner = private_corner();
   Daemon daemon(lockstep_scene(corner));
-  ClockHolder holder(corner);
+  const dds::Participant participant(corner);
+  ClockHolder holder(participant);
   ASSERT_TRUE(holder.step(5).has_value()) << daemon.log();
   kill(daemon.bridge(), SIGKILL);
   const auto reply = holder.step(5);
@@ -127,7 +129,8 @@ TEST(Lockstep, outlives_its_bridge) {
 TEST(Lockstep, ends_the_run_with_the_request_that_reaches_its_duration) {
   const auto corner = private_corner();
   Daemon daemon(lockstep_scene(corner, {.duration = "1s"}));
-  ClockHolder holder(corner);
+  const dds::Participant participant(corner);
+  ClockHolder holder(participant);
   const auto reply = holder.step(1'000'000);
   ASSERT_TRUE(reply.has_value()) << daemon.log();
   EXPECT_EQ(reply->outcome, adstar_STEP_ENDED);
@@ -138,7 +141,8 @@ TEST(Lockstep, ends_the_run_with_the_request_that_reaches_its_duration) {
 TEST(RunControl, is_refused_and_logged_unless_the_scene_allows_it) {
   const auto corner = private_corner();
   Daemon daemon(paper_scene(corner, {}));
-  ClockHolder holder(corner);
+  const dds::Participant participant(corner);
+  ClockHolder holder(participant);
   const auto refused = holder.ask(adstar_CONTROL_PAUSE);
   ASSERT_TRUE(refused.has_value()) << daemon.log();
   EXPECT_EQ(refused->refusal, adstar_CONTROL_REFUSAL_NOT_ALLOWED);
@@ -156,7 +160,7 @@ TEST(RunControl, pauses_changes_and_resets_a_run_by_the_clock) {
   Daemon daemon(
       replaced(paper_scene(corner, {}), "[service]\n", "[service]\nrun_control = true\n"));
   GroundStation ground(corner);
-  ClockHolder holder(corner);
+  ClockHolder holder(ground.participant());
   ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > 5; })) << daemon.log();
   const auto at_start = momentum_of(ground.momentum["sat1"]);
   const auto paused = holder.ask(adstar_CONTROL_PAUSE);
