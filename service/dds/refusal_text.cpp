@@ -82,7 +82,9 @@ const char* refusal_text(ControlRefusal refusal) noexcept {
              "sum "
              "of the other two, in kg m^2 about the centre of mass";
     case ControlRefusal::not_now:
-      return "the clock stands for good (see the service's log), or is not the service's to resume";
+      return "the clock stands for good (see the service's log), there is nothing to resume, or "
+             "the "
+             "run is kept on disk (--run), where only commands are recorded";
     case ControlRefusal::old_sequence:
       return "a request with this or a higher sequence number was heard before; count upwards from "
              "1";

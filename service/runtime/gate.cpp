@@ -165,7 +165,7 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
       return;
     }
   }
-  const bool waits = beat.standing || verdict.start_ns >= beat.t_ns + beat.h_ns;
+  const bool waits = verdict.start_ns >= beat.t_ns + beat.h_ns;
   verdict.reason = make_room(actuator, command.priority, verdict.start_ns, waits);
   if (verdict.reason != Reason::none) {
     verdict.verdict = Verdict::refused;
@@ -182,7 +182,8 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
     actuator.busy = true;
     busy_.push_back(number);
   }
-  if (waits) {
+  // Standing changes what is said, never what is decided: a recorded run does not know of it.
+  if (waits || beat.standing) {
     verdict.verdict = Verdict::accepted;
     put(verdict);
   }

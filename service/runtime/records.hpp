@@ -144,7 +144,7 @@ struct StatusRecord {
   std::uint64_t bridge_restarts = 0;
   std::uint64_t state_hash = 0;       ///< of every spacecraft's state at state_hash_step
   std::uint64_t state_hash_step = 0;  ///< 0: none yet
-  std::uint64_t run = 0;  ///< how often it was set back to the scene's start
+  std::uint64_t run = 0;              ///< how often it was set back to the scene's start
 };
 
 struct QuantilesRecord {

@@ -92,7 +92,12 @@ ControlRefusal Tick::objection(ControlAction action) const noexcept {
     return ControlRefusal::not_allowed;
   }
   const bool nothing_to_resume = action == ControlAction::resume && pace_ == scene::Pace::lockstep;
-  return halted() || nothing_to_resume ? ControlRefusal::not_now : ControlRefusal::none;
+  // The journal holds commands alone: what else moves a spacecraft would not be flown again.
+  const bool moves_the_clock_alone =
+      action == ControlAction::pause || action == ControlAction::resume;
+  const bool unrecorded = journal_ != nullptr && !moves_the_clock_alone;
+  return halted() || nothing_to_resume || unrecorded ? ControlRefusal::not_now
+                                                     : ControlRefusal::none;
 }
 
 /// What the clock does about an action that the fleet has taken.

@@ -71,8 +71,7 @@ TEST(Torque, does_not_wait_for_a_clock_that_stands) {
     return Answers{answer_to(command, adstar_VERDICT_ACCEPTED)};
   });
   EXPECT_EQ(code, 0) << client.err();
-  EXPECT_EQ(client.out().find("accepted by 'fake' at step 1200 (12 s): waits"), 0U)
-      << client.out();
+  EXPECT_EQ(client.out().find("accepted by 'fake' at step 1200 (12 s): waits"), 0U) << client.out();
 }
 
 TEST(Torque, wait_hears_the_final_verdict_too) {

@@ -1,10 +1,12 @@
 // The tick in the hands of others: lock-step, pause, reset.
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "service/runtime/journal.hpp"
 #include "service/runtime/tick.hpp"
 #include "tests/support/tick_scene.hpp"
 
@@ -20,7 +22,9 @@ using test::tick_scene;
 /// A tick on its own thread, and the bridge's side of its rings.
 class Running {
  public:
-  explicit Running(const scene::Scene& scene) : tick(scene, segment) {
+  explicit Running(const scene::Scene& scene, JournalWriter* journal = nullptr)
+      : tick(scene, segment) {
+    tick.record_in(journal);
     runner_ = std::thread([this] {
       tick.run(stop_);
       ended = true;
@@ -320,6 +324,23 @@ TEST(RunControl, resets_a_run_that_goes_by_the_clock) {
   EXPECT_TRUE(Running::wait_for([&] { return the.steps_taken() > 20; }));
   EXPECT_EQ(the.control(ControlAction::reset).step, 0U);
   EXPECT_TRUE(Running::wait_for([&] { return the.steps_taken() > 5; }));
+}
+
+TEST(RunControl, leaves_a_run_that_is_recorded_as_its_journal_has_it) {
+  const auto hot = std::make_unique<HotJournal>();
+  JournalWriter journal(*hot, 1);
+  Running the(lockstep(), &journal);
+  EXPECT_EQ(the.control(ControlAction::pause).refusal, ControlRefusal::none);
+  for (const ControlAction action :
+       {ControlAction::reset, ControlAction::set_state, ControlAction::set_inertia}) {
+    EXPECT_EQ(the.control(action).refusal, ControlRefusal::not_now);
+  }
+  the.step(3);
+  the.command(kStartAtNextBeat, 15 * kMs);
+  const auto recorded = hot->ring.pop();
+  ASSERT_TRUE(recorded.has_value());
+  EXPECT_EQ(recorded->kind, JournalKind::command);
+  EXPECT_EQ(recorded->step, 3U) << "the step that it begins with";
 }
 
 TEST(RunControl, refuses_everything_once_the_clock_is_halted) {
