@@ -95,9 +95,9 @@ TEST(DdsConvert, a_verdict_becomes_a_status) {
 TEST(DdsConvert, an_enumerator_of_a_newer_program_is_not_taken_for_one_of_ours) {
   adstar_CommandStatus sample{};
   const std::uint32_t eight = 8;
-  const std::uint32_t ten = 10;
+  const std::uint32_t eleven = 11;
   std::memcpy(&sample.verdict, &eight, sizeof eight);
-  std::memcpy(&sample.reason, &ten, sizeof ten);
+  std::memcpy(&sample.reason, &eleven, sizeof eleven);
   EXPECT_FALSE(verdict_of(sample));
   EXPECT_FALSE(reason_of(sample));
 }
@@ -178,11 +178,11 @@ TEST(VerdictText, has_a_word_for_each_and_a_sentence_for_each_reason) {
   EXPECT_EQ(words.size(), 8U);
   EXPECT_FALSE(words.contains("unknown verdict"));
   std::set<std::string> sentences;
-  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Reason::halted); ++i) {
+  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Reason::not_recorded); ++i) {
     sentences.insert(reason_text(static_cast<Reason>(i)));
     EXPECT_STRNE(reason_name(static_cast<Reason>(i)), "unknown reason");
   }
-  EXPECT_EQ(sentences.size(), 10U);
+  EXPECT_EQ(sentences.size(), 11U);
   EXPECT_FALSE(is_final(Verdict::accepted));
   EXPECT_TRUE(is_final(Verdict::applied));
 }
