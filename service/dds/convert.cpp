@@ -60,8 +60,8 @@ static_assert(static_cast<int>(ControlRefusal::bad_inertia) == adstar_CONTROL_RE
 static_assert(static_cast<int>(ControlRefusal::not_now) == adstar_CONTROL_REFUSAL_NOT_NOW);
 static_assert(static_cast<int>(ControlRefusal::old_sequence) ==
               adstar_CONTROL_REFUSAL_OLD_SEQUENCE);
-static_assert(static_cast<int>(ControlRefusal::unknown_action) ==
-              adstar_CONTROL_REFUSAL_UNKNOWN_ACTION);
+static_assert(static_cast<int>(ControlRefusal::not_recorded) ==
+              adstar_CONTROL_REFUSAL_NOT_RECORDED);
 static_assert(runtime::kStartAtNextBeat == adstar_START_AT_NEXT_BEAT);
 static_assert(runtime::kFlagUnresolvedAngle == adstar_FLAG_UNRESOLVED_ANGLE);
 static_assert(runtime::kFlagUnresolvedEdges == adstar_FLAG_UNRESOLVED_EDGES);
@@ -314,7 +314,7 @@ std::optional<StepRefusal> refusal_of(const adstar_StepReply& sample) noexcept {
 }
 
 std::optional<ControlRefusal> refusal_of(const adstar_RunControlStatus& sample) noexcept {
-  return known(sample.refusal, ControlRefusal::unknown_action);
+  return known(sample.refusal, ControlRefusal::not_recorded);
 }
 
 }  // namespace adstar::dds

@@ -63,6 +63,8 @@ const char* refusal_name(ControlRefusal refusal) noexcept {
       return "old_sequence";
     case ControlRefusal::unknown_action:
       return "unknown_action";
+    case ControlRefusal::not_recorded:
+      return "not_recorded";
   }
   return "unknown refusal";
 }
@@ -82,14 +84,15 @@ const char* refusal_text(ControlRefusal refusal) noexcept {
              "sum "
              "of the other two, in kg m^2 about the centre of mass";
     case ControlRefusal::not_now:
-      return "the clock stands for good (see the service's log), there is nothing to resume, or "
-             "the "
-             "run is kept on disk (--run), where only commands are recorded";
+      return "the clock stands for good (see the service's log), or is not the service's to resume";
     case ControlRefusal::old_sequence:
       return "a request with this or a higher sequence number was heard before; count upwards from "
              "1";
     case ControlRefusal::unknown_action:
       return "an action that the service does not know; it is older than this program";
+    case ControlRefusal::not_recorded:
+      return "the run is recorded, and its journal takes no more; see the service's log: is the "
+             "disk full?";
   }
   return "a refusal that this program does not know; it is older than the service";
 }

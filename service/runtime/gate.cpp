@@ -135,7 +135,7 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
       put(verdict);
       return;
     }
-    journal_->write(JournalKind::command, beat.step, command);
+    journal_->write(JournalKind::command, beat.step, 0, command);
   }
   Stream* const stream = memory_.find_or_make(command.commander, number, ++heard_);
   if (stream == nullptr) {

@@ -256,7 +256,8 @@ enum class ControlRefusal : std::uint32_t {
   bad_inertia,
   not_now,
   old_sequence,
-  unknown_action
+  unknown_action,
+  not_recorded
 };
 
 /// The answer to one RunControl.

@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "service/runtime/records.hpp"
 
@@ -58,7 +61,47 @@ class RequestMemory {
     return *asker;
   }
 
+  /// All of it as words; load() gives false, and the memory is to be thrown away, for any others.
+  std::vector<std::uint64_t> save() const {
+    std::vector<std::uint64_t> words{heard_};
+    for (const Asker& asker : askers_) {
+      words.insert(words.end(), {asker.used ? 1U : 0U, asker.id.high, asker.id.low,
+                                 asker.last_sequence, asker.last_heard, asker.next_answer});
+      for (const Answer& answer : asker.answers) {
+        const auto raw = std::bit_cast<AnswerWords>(answer);
+        words.insert(words.end(), raw.begin(), raw.end());
+      }
+    }
+    return words;
+  }
+  bool load(std::span<const std::uint64_t> words) {
+    constexpr std::size_t kAsker = 6 + kRemembered * kAnswer;
+    if (words.size() != 1 + kAskers * kAsker) {
+      return false;
+    }
+    heard_ = words[0];
+    words = words.subspan(1);
+    for (Asker& asker : askers_) {
+      asker.used = words[0] != 0;
+      asker.id = {words[1], words[2]};
+      asker.last_sequence = words[3];
+      asker.last_heard = words[4];
+      asker.next_answer = words[5] % kRemembered;
+      for (std::size_t i = 0; i < kRemembered; ++i) {
+        AnswerWords raw;
+        std::copy_n(words.begin() + static_cast<std::ptrdiff_t>(6 + i * kAnswer), kAnswer,
+                    raw.begin());
+        asker.answers[i] = std::bit_cast<Answer>(raw);
+      }
+      words = words.subspan(kAsker);
+    }
+    return true;
+  }
+
  private:
+  static_assert(sizeof(Answer) % 8 == 0, "whole words");
+  static constexpr std::size_t kAnswer = sizeof(Answer) / 8;
+  using AnswerWords = std::array<std::uint64_t, kAnswer>;
   std::array<Asker, kAskers> askers_{};
   std::uint64_t heard_ = 0;
 };

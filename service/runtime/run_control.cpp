@@ -104,6 +104,12 @@ bool ControlMemory::repeated(const ControlRecord& record,
   return true;
 }
 
+void ControlMemory::hear_again(const ControlAnswerRecord& answer) noexcept {
+  auto& asker = memory_.find(answer.commander);
+  asker.last_sequence = std::max(asker.last_sequence, answer.sequence);
+  asker.remember(answer);
+}
+
 // An answer that finds the ring full is lost; the commander repeats and gets it.
 void ControlMemory::conclude(const ControlAnswerRecord& answer) noexcept {
   memory_.find(answer.commander).remember(answer);

@@ -77,7 +77,15 @@ void Tick::control(const ControlRecord& record) noexcept {
   }
   answer.refusal = objection(record.action);
   if (answer.refusal == ControlRefusal::none) {
+    const std::uint64_t at = step();
+    const bool written = journal_ != nullptr && changes_the_fleet(record.action);
     answer = apply_control(record, fleet_);
+    if (written) {
+      if (record.action == ControlAction::reset) {
+        journal_->reached(0);
+      }
+      journal_->write(JournalKind::control, at, static_cast<std::uint32_t>(answer.refusal), record);
+    }
     if (answer.refusal == ControlRefusal::none) {
       follow(record.action);
     }
@@ -91,13 +99,11 @@ ControlRefusal Tick::objection(ControlAction action) const noexcept {
   if (!obeys_run_control_) {
     return ControlRefusal::not_allowed;
   }
+  if (journal_ != nullptr && !journal_->has_room()) {
+    return ControlRefusal::not_recorded;
+  }
   const bool nothing_to_resume = action == ControlAction::resume && pace_ == scene::Pace::lockstep;
-  // The journal holds commands alone: what else moves a spacecraft would not be flown again.
-  const bool moves_the_clock_alone =
-      action == ControlAction::pause || action == ControlAction::resume;
-  const bool unrecorded = journal_ != nullptr && !moves_the_clock_alone;
-  return halted() || nothing_to_resume || unrecorded ? ControlRefusal::not_now
-                                                     : ControlRefusal::none;
+  return halted() || nothing_to_resume ? ControlRefusal::not_now : ControlRefusal::none;
 }
 
 /// What the clock does about an action that the fleet has taken.

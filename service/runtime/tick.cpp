@@ -46,13 +46,12 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
 }
 
 void Tick::run(const std::atomic<bool>& stop) noexcept {
-  report_.step.store(first_step_, std::memory_order_relaxed);
-  publish(first_step_, true);
+  publish(step(), true);
   told_ = true;
   BeatClock clock = make_beat_clock(monotonic_ns(), step_ns_, rate_);
-  clock.base_ns -= beats_to_ns(clock, first_step_);
+  restart(clock, step(), clock.base_ns);
   const std::int64_t period_ns = pace_ == scene::Pace::clock ? beats_to_ns(clock, 1) : 0;
-  std::int64_t ended = due_ns(clock, first_step_);
+  std::int64_t ended = due_ns(clock, step());
   report_.asked_ns.store(ended, std::memory_order_relaxed);
   while (!stop.load(std::memory_order_relaxed) && (halted() || step() < last_step_)) {
     if (stands()) {
@@ -140,7 +139,7 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
     journal_->reached(n + 1);
   }
   if ((n + 1) % snapshot_every_ == 0) {
-    snapshot_.offer(fleet_.vehicles(), n + 1);
+    snapshot_.offer(fleet_.vehicles(), {report_.run.load(std::memory_order_relaxed), n + 1});
   }
   publish_counters();
 

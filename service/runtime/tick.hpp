@@ -69,7 +69,10 @@ class Tick {
   }
 
   /// Before run(): a run that goes on at a later step; fleet() and gate() are set to it by the caller.
-  void go_on_from(std::uint64_t step) noexcept { first_step_ = step; }
+  void go_on_from(const Instant& at) noexcept {
+    report_.step.store(at.step, std::memory_order_relaxed);
+    report_.run.store(at.resets, std::memory_order_relaxed);
+  }
 
   /// Runs until `stop` is set or the scene's duration is over. Call from the thread that is to be
   /// real-time. Halted, it goes on serving snapshots and refusing commands until `stop` is set;
@@ -84,6 +87,7 @@ class Tick {
   const Fleet& fleet() const noexcept { return fleet_; }
   Fleet& fleet() noexcept { return fleet_; }                ///< not while it runs
   CommandGate& gate() noexcept { return gate_; }            ///< not while it runs
+  ControlMemory& controls() noexcept { return controls_; }  ///< not while it runs
   FleetSnapshot& snapshot() noexcept { return snapshot_; }  ///< the reader's end
   std::int64_t time_ns() const noexcept {
     return static_cast<std::int64_t>(report_.step.load(std::memory_order_relaxed)) * step_ns_;
@@ -150,7 +154,6 @@ class Tick {
   bool restart_clock_ = false;  ///< the next beat is due when it comes
   bool told_ = false;           ///< everything was published of what the fleet is now
   JournalWriter* journal_ = nullptr;
-  std::uint64_t first_step_ = 0;
   std::uint64_t snapshot_every_;  ///< steps: about a second of simulation time
   FleetSnapshot snapshot_;
   std::vector<std::uint64_t> fleet_words_;

@@ -326,15 +326,24 @@ TEST(RunControl, resets_a_run_that_goes_by_the_clock) {
   EXPECT_TRUE(Running::wait_for([&] { return the.steps_taken() > 5; }));
 }
 
-TEST(RunControl, leaves_a_run_that_is_recorded_as_its_journal_has_it) {
+TEST(RunControl, is_written_down_with_its_step_and_outcome_where_it_changes_the_fleet) {
   const auto hot = std::make_unique<HotJournal>();
   JournalWriter journal(*hot, 1);
   Running the(lockstep(), &journal);
   EXPECT_EQ(the.control(ControlAction::pause).refusal, ControlRefusal::none);
+  EXPECT_EQ(hot->ring.size(), 0U) << "pause is the clock's alone";
+  the.step(2);
   for (const ControlAction action :
-       {ControlAction::reset, ControlAction::set_state, ControlAction::set_inertia}) {
-    EXPECT_EQ(the.control(action).refusal, ControlRefusal::not_now);
+       {ControlAction::set_state, ControlAction::set_inertia, ControlAction::reset}) {
+    const ControlRefusal outcome = the.control(action).refusal;
+    const auto recorded = hot->ring.pop();
+    ASSERT_TRUE(recorded.has_value());
+    EXPECT_EQ(recorded->kind, JournalKind::control);
+    EXPECT_EQ(recorded->step, 2U);
+    EXPECT_EQ(recorded->note, static_cast<std::uint32_t>(outcome));
+    EXPECT_EQ(payload_of<ControlRecord>(*recorded).action, action);
   }
+  EXPECT_EQ(hot->step.load(), 0U) << "a reset sets the journal's step back before it is written";
   the.step(3);
   the.command(kStartAtNextBeat, 15 * kMs);
   const auto recorded = hot->ring.pop();
