@@ -1,13 +1,11 @@
 #include "service/adstar/commander.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <sys/random.h>
 
 #include <fmt/format.h>
 
 #include "service/adstar/failure.hpp"
+#include "service/adstar/random_id.hpp"
 #include "service/dds/convert.hpp"
 #include "service/dds/verdict_text.hpp"
 
@@ -21,14 +19,6 @@ constexpr auto kUntilSomebodyListens = 10ms;
 constexpr auto kAskAfter = 1s;
 /// Time for the service that does fly the spacecraft to speak up.
 constexpr auto kProvisional = 300ms;
-
-runtime::CommanderId random_id() {
-  runtime::CommanderId id;
-  if (getrandom(&id, sizeof id, 0) != static_cast<ssize_t>(sizeof id)) {
-    throw Failure(kFailed, fmt::format("getrandom gave no commander id: {}", std::strerror(errno)));
-  }
-  return id;
-}
 
 Answer answer_of(const adstar_CommandStatus& status) {
   const auto verdict = dds::verdict_of(status);

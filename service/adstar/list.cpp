@@ -9,6 +9,7 @@
 #include "service/adstar/dds_options.hpp"
 #include "service/adstar/failure.hpp"
 #include "service/adstar/output.hpp"
+#include "service/adstar/service_state.hpp"
 #include "service/adstar/services.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/usage.hpp"
@@ -31,18 +32,6 @@ struct Options {
 constexpr std::int64_t kDefaultTimeout_ns = 1'000'000'000;
 constexpr std::size_t kShown = 20;
 
-const char* state_text(adstar_ServiceState state) {
-  switch (state) {
-    case adstar_SERVICE_RUNNING:
-      return "running";
-    case adstar_SERVICE_STOPPED:
-      return "stopped";
-    case adstar_SERVICE_HALTED:
-      return "HALTED (a beat was over its budget; see its log)";
-  }
-  return "in a state that this program does not know";
-}
-
 std::string status_lines(const adstar_ServiceStatus& status) {
   std::string text = fmt::format(
       "{}, step {} ({} s), step of {}, {}, pace {}\n"
@@ -52,6 +41,9 @@ std::string status_lines(const adstar_ServiceStatus& status) {
       dds::text_of(status.pace), report::counted(status.commands_received),
       report::counted(status.commands_refused), report::counted(status.commands_lost),
       status.worst_momentum_residual_relative);
+  if (status.run > 0) {
+    text += fmt::format("  set back to its start {} times\n", report::counted(status.run));
+  }
   if (status.unresolved_spacecraft > 0) {
     text += fmt::format("  WARNING: {} spacecraft turn too fast for their step; see its log\n",
                         report::counted(status.unresolved_spacecraft));

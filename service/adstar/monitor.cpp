@@ -14,6 +14,7 @@
 #include "service/adstar/failure.hpp"
 #include "service/adstar/live_table.hpp"
 #include "service/adstar/output.hpp"
+#include "service/adstar/service_state.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/telemetry_feed.hpp"
 #include "service/adstar/usage.hpp"
@@ -41,6 +42,7 @@ class Watch {
   explicit Watch(const Options& options) : options_(options) {}
 
   void count(std::size_t rows) { rows_ += rows; }
+  bool heard() const { return rows_ > 0; }
   std::uint64_t still_wanted() const {
     return options_.samples ? *options_.samples - std::min(rows_, *options_.samples)
                             : ~std::uint64_t{0};
@@ -142,8 +144,8 @@ void draw_table(TelemetryFeed& feed, Watch& watch, const dds::ParticipantOptions
     watch.check_timeout();
     if (const std::string complaint = watch.complaint(feed); !complaint.empty()) {
       table.set_note(complaint);
-    } else if (!rows.empty()) {
-      table.set_note({});
+    } else if (watch.heard()) {
+      table.set_note(standing_clocks(feed.services()));
     }
     if (now >= next_frame) {
       screen.draw(table.text(Screen::size(), now));

@@ -20,15 +20,20 @@ std::string plural(std::uint64_t count, const char* one, const char* many) {
   return report::counted(count) + " " + (count == 1 ? one : many);
 }
 
+std::string text_of(const run::Instant& at) {
+  return at.resets == 0 ? fmt::format("step {}", at.step)
+                        : fmt::format("step {} after reset {}", at.step, at.resets);
+}
+
 std::string said_of(const run::Reflight& flight) {
-  std::string text = fmt::format("steps {} to {}, {}, compared at {} and {}\n", flight.from_step,
-                                 flight.to_step, plural(flight.commands, "command", "commands"),
+  std::string text = fmt::format("{} to {}, {}, compared at {} and {}\n", text_of(flight.from),
+                                 text_of(flight.to), plural(flight.heard, "command", "commands"),
                                  plural(flight.hashes, "state hash", "state hashes"),
                                  plural(flight.checkpoints, "checkpoint", "checkpoints"));
   if (flight.differs_at) {
-    text +=
-        fmt::format("differs: the same at step {}, not at step {}{}\n", flight.same_until,
-                    *flight.differs_at, flight.differs_in.empty() ? "" : ": " + flight.differs_in);
+    text += fmt::format("differs: the same at {}, not at {}{}\n", text_of(flight.same_until),
+                        text_of(*flight.differs_at),
+                        flight.differs_in.empty() ? "" : ": " + flight.differs_in);
   } else if (flight.hashes + flight.checkpoints == 0) {
     text += "nothing to compare with: the run ended before its first second\n";
   } else {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "service/adstar/service_state.hpp"
 #include "service/adstar/services.hpp"
 #include "service/dds/convert.hpp"
 #include "service/report/numbers.hpp"
@@ -43,15 +44,32 @@ nlohmann::ordered_json json_of(const adstar_Quantiles& q) {
           {"max_ns", q.max_ns}};
 }
 
+/// For programs.
+const char* state_word(adstar_ServiceState state) {
+  switch (state) {
+    case adstar_SERVICE_RUNNING:
+      return "running";
+    case adstar_SERVICE_STOPPED:
+      return "stopped";
+    case adstar_SERVICE_HALTED:
+      return "halted";
+    case adstar_SERVICE_WAITING:
+      return "waiting";
+    case adstar_SERVICE_PAUSED:
+      return "paused";
+  }
+  return "unknown";
+}
+
 }  // namespace
 
 std::string timing_table(const adstar_StepTiming& t) {
   std::string text = fmt::format(
-      "service '{}': step {} ({} s), {} behind the wall clock\n"
+      "service '{}': {}, step {} ({} s), {} behind the wall clock\n"
       "  {:<17}{:>14}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n",
-      printable(dds::text_of(t.service)), report::counted(t.step), report::seconds_text(t.time_ns),
-      scene::format_duration(t.behind_wall_ns), "part of a beat", "beats", "p50 [us]", "p99",
-      "p99.9", "max", "budget", "over");
+      printable(dds::text_of(t.service)), state_text(t.state), report::counted(t.step),
+      report::seconds_text(t.time_ns), scene::format_duration(t.behind_wall_ns), "part of a beat",
+      "beats", "p50 [us]", "p99", "p99.9", "max", "budget", "over");
   for (const Part& part : kParts) {
     const adstar_PhaseTiming& phase = t.*part.timing;
     text += row(part.name, phase.took);
@@ -81,6 +99,7 @@ std::string timing_table(const adstar_StepTiming& t) {
 std::string timing_json(const adstar_StepTiming& t) {
   nlohmann::ordered_json line;
   line["service"] = printable(dds::text_of(t.service));
+  line["state"] = state_word(t.state);
   line["step"] = t.step;
   line["time_ns"] = t.time_ns;
   for (const Part& part : kParts) {

@@ -57,16 +57,23 @@ Order order_of(const Options& options) {
   return order;
 }
 
-/// One order until its verdict. An immediate one is final within a beat, so that is waited for.
+/// One order until its verdict. An immediate one is final within a beat, so that is waited for; where
+/// none comes the clock stands, and it begins with the next step.
 ExitCode command(Commander& commander, const Options& options, std::int64_t timeout_ns) {
   const Order order = order_of(options);
   const std::uint64_t sequence = commander.give(order);
-  const bool wait_for_end = options.wait || !options.at_ns;
+  constexpr auto kABeat = 500ms;
+  using Clock = Commander::Clock;
+  std::optional<Clock::time_point> accepted_at;
   bool said_accepted = false;
   while (true) {
     commander.work(50ms);
     const auto& dispatch = commander.at(sequence);
-    if (dispatch.answer && (dispatch.ended() || !wait_for_end)) {
+    if (dispatch.answer && !accepted_at) {
+      accepted_at = Clock::now();
+    }
+    const bool waits_long = accepted_at && (options.at_ns || Clock::now() - *accepted_at > kABeat);
+    if (dispatch.answer && (dispatch.ended() || (waits_long && !options.wait))) {
       fmt::print("{}\n", verdict_sentence(*dispatch.answer, order.torque_n_m));
       return exit_code_of(*dispatch.answer);
     }

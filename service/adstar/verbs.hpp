@@ -21,6 +21,12 @@ Verb add_monitor(CLI::App& program);
 Verb add_list(CLI::App& program);
 Verb add_timing(CLI::App& program);
 Verb add_replay(CLI::App& program);
+Verb add_step(CLI::App& program);
+Verb add_pause(CLI::App& program);
+Verb add_resume(CLI::App& program);
+Verb add_reset(CLI::App& program);
+Verb add_set_state(CLI::App& program);
+Verb add_set_inertia(CLI::App& program);
 /// Reads the finished option tree when it runs.
 Verb add_completion(CLI::App& program);
 

@@ -1,6 +1,7 @@
 #include "service/adstard/housekeeping.hpp"
 
 #include <algorithm>
+#include <time.h>
 #include <utility>
 
 #include <spdlog/spdlog.h>
@@ -37,10 +38,19 @@ Housekeeping::Housekeeping(const scene::Scene& scene, const runtime::Tick& tick,
 
 void Housekeeping::look(std::uint64_t bridge_restarts, const StateHash& hash, bool stopped) {
   segment_->status.write(status(bridge_restarts, hash, stopped));
-  const runtime::TimingRecord now = timing();
+  const runtime::TimingRecord now = timing(stopped);
   segment_->timing.write(now);
   runtime::wake_bridge(*segment_);
   log_changes(now);
+}
+
+runtime::RunState Housekeeping::state(bool stopped) const {
+  const runtime::TickReport& report = tick_.report();
+  return stopped                      ? runtime::RunState::stopped
+         : report.halted.load() != 0  ? runtime::RunState::halted
+         : report.paused.load() != 0  ? runtime::RunState::paused
+         : report.waiting.load() != 0 ? runtime::RunState::waiting
+                                      : runtime::RunState::running;
 }
 
 runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, const StateHash& hash,
@@ -49,10 +59,7 @@ runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, const 
   runtime::StatusRecord status;
   status.step = read(report.step);
   status.time_ns = static_cast<std::int64_t>(status.step) * scene_.simulation.step_ns;
-  const runtime::RunState state = stopped                     ? runtime::RunState::stopped
-                                  : report.halted.load() != 0 ? runtime::RunState::halted
-                                                              : runtime::RunState::running;
-  status.state = static_cast<std::uint64_t>(state);
+  status.state = static_cast<std::uint64_t>(state(stopped));
   status.unresolved_spacecraft = read(report.unresolved_spacecraft);
   status.worst_momentum_residual_relative =
       report.worst_momentum_residual_relative.load(std::memory_order_relaxed);
@@ -64,12 +71,14 @@ runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, const 
   status.bridge_restarts = bridge_restarts;
   status.state_hash = hash.hash;
   status.state_hash_step = hash.step;
+  status.run = read(report.run);
   return status;
 }
 
-runtime::TimingRecord Housekeeping::timing() const {
+runtime::TimingRecord Housekeeping::timing(bool stopped) const {
   const runtime::TickReport& report = tick_.report();
   runtime::TimingRecord timing;
+  timing.state = static_cast<std::uint64_t>(state(stopped));
   timing.step = read(report.step);
   timing.time_ns = static_cast<std::int64_t>(timing.step) * scene_.simulation.step_ns;
   const scene::Budget& budget = scene_.budget;
@@ -117,6 +126,7 @@ void Housekeeping::log_changes(const runtime::TimingRecord& now) {
     unresolved_seen_ = unresolved;
   }
   log_budget(now);
+  log_silence();
   if (const auto n = growth(read(report.missed_beats), missed_seen_); n > 0) {
     spdlog::warn("{} beats missed: simulation time has fallen {} behind the wall", n,
                  scene::format_duration(report.behind_ns.load(std::memory_order_relaxed)));
@@ -157,6 +167,28 @@ void Housekeeping::log_budget(const runtime::TimingRecord& now) {
   }
 }
 
+/// Once, until somebody asks for a step again.
+void Housekeeping::log_silence() {
+  const runtime::TickReport& report = tick_.report();
+  const auto patience_ns = scene_.simulation.lockstep_timeout_ns;
+  const std::int64_t asked_ns = report.asked_ns.load(std::memory_order_relaxed);
+  if (asked_ns != silence_since_ns_) {
+    silence_since_ns_ = asked_ns;
+    silence_said_ = false;
+  }
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::int64_t silence_ns = now.tv_sec * 1'000'000'000 + now.tv_nsec - asked_ns;
+  if (report.waiting.load() == 0 || silence_said_ || !patience_ns || silence_ns < *patience_ns) {
+    return;
+  }
+  silence_said_ = true;
+  spdlog::warn(
+      "in lock-step at step {}: nobody has asked for a step for {:.1f} s; the clock stands until "
+      "somebody does (adstar step)",
+      read(report.step), static_cast<double>(silence_ns) * 1e-9);
+}
+
 void Housekeeping::summarise() const {
   const runtime::TickReport& report = tick_.report();
   const auto& vehicles = tick_.fleet().vehicles();
@@ -164,7 +196,7 @@ void Housekeeping::summarise() const {
   for (const auto& vehicle : vehicles) {
     worst = std::max(worst, runtime::momentum_residual_relative(vehicle));
   }
-  const runtime::TimingRecord now = timing();
+  const runtime::TimingRecord now = timing(true);
   spdlog::info("{} steps of {}, {} spacecraft, momentum residual at most {:.1e} of |H|",
                read(report.step), scene::format_duration(scene_.simulation.step_ns),
                vehicles.size(), worst);

@@ -37,8 +37,10 @@ class Housekeeping {
  private:
   runtime::StatusRecord status(std::uint64_t bridge_restarts, const StateHash& hash,
                                bool stopped) const;
-  runtime::TimingRecord timing() const;
+  runtime::TimingRecord timing(bool stopped) const;
+  runtime::RunState state(bool stopped) const;
   void log_changes(const runtime::TimingRecord& now);
+  void log_silence();
   void log_budget(const runtime::TimingRecord& now);
 
   const scene::Scene& scene_;
@@ -48,6 +50,8 @@ class Housekeeping {
   runtime::ThreadAccount at_start_;
   std::optional<runtime::ThreadAccount> at_end_;
   bool halt_said_ = false;
+  bool silence_said_ = false;
+  std::int64_t silence_since_ns_ = 0;
   std::array<std::uint64_t, runtime::kPhases> over_budget_seen_{};
   std::uint64_t unresolved_seen_ = 0;
   std::uint64_t missed_seen_ = 0;

@@ -50,50 +50,50 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
         directory, {random_word(), plan.text, plan.file, options.service, options.duration});
   }
   std::unique_ptr<run::RunLog> log;
+  run::Flight flight{tick.gate(), tick.controls(), &tick.fleet(), scene.simulation.step_ns, {}};
   if (plan.run) {
     run_ = plan.run->facts().run;
     const std::uint64_t fingerprint = run::scene_fingerprint(scene, plan.text);
     if (!options.resume.empty()) {
-      go_on(plan, options.accept_loss, fingerprint, tick, segment);
+      go_on(plan, options.accept_loss, fingerprint, flight, segment->verdicts);
+      tick.go_on_from(flight.at);
     }
     if (!hot_) {
       hot_ = run::HotJournalFile::create(run_);
-      (*hot_)->step.store(first_step_);
     }
-    log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, tick.gate(),
-                                        first_step_, next_number_, last_in_files_);
+    log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, flight, next_number_,
+                                        last_in_files_);
     writer_.emplace(**hot_, next_number_);
+    writer_->reached(flight.at.step);
     tick.record_in(&*writer_);
   }
   const std::int64_t every = scene.run.checkpoint_every_ns / scene.simulation.step_ns;
   recorder_ = std::make_unique<Recorder>(
-      tick.snapshot(), std::move(log), first_step_,
+      tick.snapshot(), std::move(log), flight.at,
       static_cast<std::uint64_t>(std::max<std::int64_t>(1, every)), scene.run.whole_history);
 }
 
 void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint,
-                    runtime::Tick& tick, runtime::MappedSegment& segment) {
+                    run::Flight& flight, runtime::VerdictRing& verdicts) {
   hot_ = run::HotJournalFile::open(run_);
-  run::Flight flight{tick.gate(), &tick.fleet(), plan.scene.simulation.step_ns, 0};
   const run::Resumed resumed = run::resume(*plan.run, hot_ ? &**hot_ : nullptr, plan.scene,
-                                           fingerprint, accept_loss, flight, segment->verdicts);
+                                           fingerprint, accept_loss, flight, verdicts);
   for (const std::string& note : resumed.notes) {
     spdlog::warn("{}", note);
   }
   if (!resumed.records.gap.empty()) {
     hot_.reset();  // it may hold what comes after the gap
   }
-  first_step_ = flight.step;
   next_number_ = resumed.records.next_number;
   last_in_files_ = resumed.records.last_in_files;
-  tick.go_on_from(first_step_);
-  spdlog::info("the run goes on at step {}: checkpoint of step {}, {} commands since", first_step_,
-               resumed.checkpoint_step, resumed.commands);
+  spdlog::info("the run goes on at step {}: checkpoint of step {}, {} commands since",
+               flight.at.step, resumed.checkpoint.step, resumed.records.heard.size());
 }
 
 void Keeping::finish(const runtime::Tick& tick) {
-  const std::uint64_t step = tick.report().step.load(std::memory_order_relaxed);
-  if (recorder_->finish(tick.fleet(), step) && hot_) {
+  const runtime::Instant at{tick.report().run.load(std::memory_order_relaxed),
+                            tick.report().step.load(std::memory_order_relaxed)};
+  if (recorder_->finish(tick.fleet(), at) && hot_) {
     run::HotJournalFile::remove(run_);
   }
 }

@@ -39,11 +39,11 @@ class Keeping {
   void finish(const runtime::Tick& tick);
 
  private:
-  void go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint, runtime::Tick& tick,
-             runtime::MappedSegment& segment);
+  void go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint, run::Flight& flight,
+             runtime::VerdictRing& verdicts);
 
   std::uint64_t run_ = 0;
-  std::uint64_t first_step_ = 0, next_number_ = 1, last_in_files_ = 0;
+  std::uint64_t next_number_ = 1, last_in_files_ = 0;
   std::optional<run::HotJournalFile> hot_;
   std::optional<runtime::JournalWriter> writer_;
   std::unique_ptr<Recorder> recorder_;

@@ -123,7 +123,7 @@ void log_start(const scene::Scene& scene) {
   const scene::Simulation& s = scene.simulation;
   spdlog::info("'{}' propagates {} spacecraft with {}, step {}, pace {}{}{}", scene.service.name,
                scene.spacecraft.size(), s.scheme, scene::format_duration(s.step_ns),
-               s.pace == scene::Pace::clock ? "clock" : "free",
+               scene::name_of(s.pace),
                s.pace == scene::Pace::clock && s.rate != 1.0 ? fmt::format(" x {}", s.rate) : "",
                s.duration_ns ? ", for " + scene::format_duration(*s.duration_ns) : ", endless");
   const std::string models = report::scene_report(scene);

@@ -15,12 +15,12 @@ constexpr std::chrono::milliseconds kLook{20};
 }  // namespace
 
 Recorder::Recorder(runtime::FleetSnapshot& snapshot, std::unique_ptr<run::RunLog> log,
-                   std::uint64_t first_step, std::uint64_t checkpoint_every_steps,
+                   const runtime::Instant& start, std::uint64_t checkpoint_every_steps,
                    bool keep_all_journals)
     : snapshot_(snapshot),
       log_(std::move(log)),
       checkpoint_every_steps_(checkpoint_every_steps),
-      next_checkpoint_step_(first_step + checkpoint_every_steps),
+      next_checkpoint_{start.resets, start.step + checkpoint_every_steps},
       keep_all_journals_(keep_all_journals),
       thread_([this] { work(); }) {}
 
@@ -79,41 +79,41 @@ void Recorder::keep_up() {
 }
 
 void Recorder::take_snapshot() {
-  const std::uint64_t step = snapshot_.step();
+  const runtime::Instant at = snapshot_.at();
   const std::vector<runtime::VehicleState> vehicles = snapshot_.vehicles();
   snapshot_.done();
-  const std::uint64_t hash = run::state_hash(step, vehicles);
+  const std::uint64_t hash = run::state_hash(at.step, vehicles);
   {
     const std::lock_guard lock(mutex_);
-    newest_ = {hash, step};
+    newest_ = {hash, at.step};
   }
   if (log_ == nullptr) {
     return;
   }
   log_->move_records();
-  log_->note_hash(step, hash);
+  log_->note_hash(at, hash);
   unsynced_ = true;
-  if (step >= next_checkpoint_step_) {
-    log_->write_checkpoint(step, vehicles, keep_all_journals_);
-    next_checkpoint_step_ = step + checkpoint_every_steps_;
+  if (at >= next_checkpoint_) {
+    log_->write_checkpoint(at, vehicles, keep_all_journals_);
+    next_checkpoint_ = {at.resets, at.step + checkpoint_every_steps_};
   }
 }
 
-bool Recorder::finish(const runtime::Fleet& fleet, std::uint64_t step) {
+bool Recorder::finish(const runtime::Fleet& fleet, const runtime::Instant& at) {
   stop_thread();
   std::vector<runtime::VehicleState> vehicles;
   for (const runtime::Vehicle& vehicle : fleet.vehicles()) {
     vehicles.push_back(runtime::state_of(vehicle));
   }
-  const std::uint64_t hash = run::state_hash(step, vehicles);
-  newest_ = {hash, step};
+  const std::uint64_t hash = run::state_hash(at.step, vehicles);
+  newest_ = {hash, at.step};
   if (log_ == nullptr) {
     return true;
   }
   try {
     log_->move_records();
-    log_->note_hash(step, hash);
-    log_->write_checkpoint(step, vehicles, keep_all_journals_);
+    log_->note_hash(at, hash);
+    log_->write_checkpoint(at, vehicles, keep_all_journals_);
     return true;
   } catch (const std::exception& error) {
     spdlog::error(

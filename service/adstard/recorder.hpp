@@ -24,7 +24,8 @@ class Recorder {
  public:
   /// `log` may be null: then only hashes. Starts the thread.
   Recorder(runtime::FleetSnapshot& snapshot, std::unique_ptr<run::RunLog> log,
-           std::uint64_t first_step, std::uint64_t checkpoint_every_steps, bool keep_all_journals);
+           const runtime::Instant& start, std::uint64_t checkpoint_every_steps,
+           bool keep_all_journals);
   ~Recorder();
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -34,7 +35,7 @@ class Recorder {
 
   /// After the tick has ended: everything that is left, and a last checkpoint. False when that could not
   /// be written; it was said why.
-  bool finish(const runtime::Fleet& fleet, std::uint64_t step);
+  bool finish(const runtime::Fleet& fleet, const runtime::Instant& at);
 
  private:
   void work();
@@ -45,7 +46,7 @@ class Recorder {
   runtime::FleetSnapshot& snapshot_;
   std::unique_ptr<run::RunLog> log_;
   std::uint64_t checkpoint_every_steps_;
-  std::uint64_t next_checkpoint_step_;
+  runtime::Instant next_checkpoint_;
   bool keep_all_journals_;
   bool failing_ = false;
   bool unsynced_ = false;

@@ -85,7 +85,7 @@ void warn_of_drops(const dds::Participant& participant) {
 }
 
 void carry(const dds::Participant& participant, runtime::SharedSegment& segment,
-           Publisher& publisher, OtherServices& others, StatusWriter& statuses,
+           Publisher& publisher, OtherServices& others, AnswerWriters& answers,
            const CommandIntake& intake, const scene::Dds& dds) {
   auto next_chore = Clock::now();
   auto drained_by = Clock::time_point::max();
@@ -107,7 +107,7 @@ void carry(const dds::Participant& participant, runtime::SharedSegment& segment,
       intake.check();
       warn_of_rival(others.poll(), dds);
       warn_of_drops(participant);
-      statuses.forget_silent(kCommanderSilence, now);
+      answers.forget_silent(kCommanderSilence, now);
     }
     if (left != Publisher::Left::more) {
       runtime::sleep_until_woken(segment, seen, left == Publisher::Left::fleet ? 1 : 50);
@@ -144,15 +144,16 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
     return kRefused;
   }
 
-  StatusWriter statuses(participant);
-  Publisher publisher(participant, segment, scene, directory, options, statuses);
+  AnswerWriters answers(participant);
+  Publisher publisher(participant, segment, scene, directory, options, answers);
   // What waited while nobody read is stale; verdicts are answers still owed.
   if (const std::size_t stale = segment->telemetry.size(); reattached && stale > 0) {
     spdlog::warn("{} telemetry samples lost: they waited while there was no bridge", stale);
   }
   segment->telemetry.skip_all();
   {
-    const CommandIntake intake(participant, *segment, directory, others, statuses, options.service);
+    const CommandIntake intake(participant, *segment, directory, others, answers.commands,
+                               options.service);
     const std::size_t sockets = participant.bind_sockets_to_interface();
     segment->snapshot_requested.store(1);
     set_state(*segment, runtime::BridgeState::ready);
@@ -161,7 +162,7 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
         options.service, scene.dds.interface, scene.dds.domain, scene.dds.partition,
         directory.size(), sockets,
         scene.dds.security ? "secured" : "open to whoever reaches the interface");
-    carry(participant, *segment, publisher, others, statuses, intake, scene.dds);
+    carry(participant, *segment, publisher, others, answers, intake, scene.dds);
     intake.check();
     const PublishedCounts& counts = publisher.counts();
     spdlog::info(

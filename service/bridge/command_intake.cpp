@@ -1,25 +1,13 @@
 #include "service/bridge/command_intake.hpp"
 
-#include <time.h>
-
 #include <spdlog/spdlog.h>
 
+#include "service/bridge/staleness.hpp"
 #include "service/dds/convert.hpp"
 #include "service/dds/rate_limit.hpp"
 #include "service/dds/verdict_text.hpp"
 
 namespace adstar::bridge {
-namespace {
-
-constexpr std::int64_t kMostAge_ns = 2'000'000'000;
-
-std::int64_t clock_ns(clockid_t clock) {
-  timespec now{};
-  clock_gettime(clock, &now);
-  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
-}
-
-}  // namespace
 
 CommandIntake::CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
                              const Directory& directory, const OtherServices& others,
@@ -30,8 +18,10 @@ CommandIntake::CommandIntake(const dds::Participant& participant, runtime::Share
       statuses_(statuses),
       service_(std::move(service)),
       reader_(participant),
+      requests_(participant, segment, directory, service_),
       wait_set_(participant) {
   wait_set_.attach(reader_);
+  requests_.attach_to(wait_set_);
   thread_ = std::thread([this] { listen(); });
 }
 
@@ -55,12 +45,11 @@ void CommandIntake::listen() noexcept {
   try {
     while (!ending_.load()) {
       wait_set_.wait(std::chrono::seconds(1));
-      while (!ending_.load() && reader_.take([this](const adstar_TorqueCommand& command,
-                                                    const dds_sample_info_t& info) {
-        if (!is_stale(command, info)) {
-          take(command);
-        }
-      }) > 0) {}
+      bool more = true;
+      while (more && !ending_.load()) {
+        const bool commands = take_commands();
+        more = requests_.take_some() || commands;
+      }
     }
   } catch (...) {
     failure_ = std::current_exception();
@@ -68,24 +57,17 @@ void CommandIntake::listen() noexcept {
   }
 }
 
-/// What waited in a socket while this process, or the one that wrote it, stood still is nobody's
-/// wish any more. It is not answered: a commander that still means it repeats it with a stamp of
-/// now.
-bool CommandIntake::is_stale(const adstar_TorqueCommand& command, const dds_sample_info_t& info) {
-  const std::int64_t age_ns = clock_ns(CLOCK_REALTIME) - info.source_timestamp;
-  if (age_ns <= kMostAge_ns) {
-    return false;
-  }
-  stale_.fetch_add(1);
-  static dds::RateLimit limit(1);
-  if (limit.admit()) {
-    spdlog::warn(
-        "ignored a command for '{}' that was written {:.1f} s ago by its stamp; if it was sent "
-        "just "
-        "now, set the clocks of the two machines",
-        dds::text_of(command.spacecraft), static_cast<double>(age_ns) * 1e-9);
-  }
-  return true;
+/// False when there was none.
+bool CommandIntake::take_commands() {
+  return reader_.take([this](const adstar_TorqueCommand& command, const dds_sample_info_t& info) {
+    if (is_stale(info, [&] {
+          return fmt::format("a command for '{}'", dds::text_of(command.spacecraft));
+        })) {
+      stale_.fetch_add(1);
+    } else {
+      take(command);
+    }
+  }) > 0;
 }
 
 void CommandIntake::take(const adstar_TorqueCommand& command) {
@@ -106,6 +88,7 @@ void CommandIntake::take(const adstar_TorqueCommand& command) {
   record.received_ns = clock_ns(CLOCK_MONOTONIC);
   if (segment_.commands.push(record)) {
     handed_over_.fetch_add(1);
+    runtime::wake_tick(segment_);
     return;
   }
   segment_.commands_lost.fetch_add(1);

@@ -1,6 +1,6 @@
 #pragma once
 // TorqueCommand samples become CommandRecords in the ring. Only names are looked at here: adstard
-// judges the rest.
+// judges the rest. The requests to the clock are taken on the same thread.
 
 #include <atomic>
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "service/bridge/directory.hpp"
 #include "service/bridge/other_services.hpp"
+#include "service/bridge/request_intake.hpp"
 #include "service/bridge/status_writer.hpp"
 #include "service/dds/reader.hpp"
 #include "service/dds/wait_set.hpp"
@@ -18,7 +19,7 @@
 namespace adstar::bridge {
 
 /// Listens on a thread of its own from construction to destruction; the only producer of the
-/// command ring.
+/// command ring, and of those of the requests.
 class CommandIntake {
  public:
   CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
@@ -37,7 +38,7 @@ class CommandIntake {
 
  private:
   void listen() noexcept;
-  bool is_stale(const adstar_TorqueCommand& command, const dds_sample_info_t& info);
+  bool take_commands();
   void take(const adstar_TorqueCommand& command);
   void refuse(const adstar_TorqueCommand& command, runtime::Reason reason);
 
@@ -47,6 +48,7 @@ class CommandIntake {
   StatusWriter& statuses_;
   std::string service_;
   dds::Reader<adstar_TorqueCommand> reader_;
+  RequestIntake requests_;
   dds::WaitSet wait_set_;
   std::atomic<std::uint64_t> handed_over_{0};
   std::atomic<std::uint64_t> refused_{0};

@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include "service/bridge/roster.hpp"
+#include "service/dds/rate_limit.hpp"
+#include "service/dds/refusal_text.hpp"
 
 namespace adstar::bridge {
 namespace {
@@ -19,20 +24,37 @@ dds::ServiceFacts facts_of(const scene::Scene& scene, std::string_view service,
   facts.instance = options.instance;
   facts.started_utc_ns = options.started_utc_ns;
   facts.step_length_ns = scene.simulation.step_ns;
-  facts.pace = scene.simulation.pace == scene::Pace::clock ? "clock" : "free";
+  facts.pace = scene::name_of(scene.simulation.pace);
   facts.scheme = scene.simulation.scheme;
   facts.spacecraft = static_cast<std::uint32_t>(scene.spacecraft.size());
   return facts;
+}
+
+void log_control(const runtime::ControlAnswerRecord& answer, std::string_view spacecraft) {
+  static dds::RateLimit limit(5);
+  if (!limit.admit()) {
+    return;
+  }
+  const bool of_one = answer.action == runtime::ControlAction::set_state ||
+                      answer.action == runtime::ControlAction::set_inertia;
+  const std::string what =
+      of_one ? fmt::format("{} of '{}'", dds::action_name(answer.action), spacecraft)
+             : std::string(dds::action_name(answer.action));
+  if (answer.refusal == runtime::ControlRefusal::none) {
+    spdlog::info("run control: {} done, at step {}", what, answer.step);
+  } else {
+    spdlog::warn("run control: {} refused: {}", what, dds::refusal_text(answer.refusal));
+  }
 }
 
 }  // namespace
 
 Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment& segment,
                      const scene::Scene& scene, const Directory& directory, const Options& options,
-                     StatusWriter& statuses)
+                     AnswerWriters& answers)
     : segment_(segment),
       directory_(directory),
-      statuses_(statuses),
+      answers_(answers),
       service_(options.service),
       facts_(facts_of(scene, service_, options)),
       attitude_(participant),
@@ -54,9 +76,15 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
 }
 
 Publisher::Left Publisher::publish_some() {
+  // What was pushed before an answer to a step request is written before it.
+  const std::size_t replies = segment_->step_replies.size();
   const bool verdicts = publish_verdicts();
+  publish_control_answers();
   const bool telemetry = publish_telemetry();
   const bool fleet = publish_fleet();
+  if (!verdicts && !telemetry) {
+    publish_step_replies(replies);
+  }
   publish_health();
   return verdicts || telemetry ? Left::more : fleet ? Left::fleet : Left::nothing;
 }
@@ -70,10 +98,29 @@ bool Publisher::publish_verdicts() {
     const std::string_view spacecraft = directory_.spacecraft_name(record->spacecraft);
     const std::string_view actuator =
         directory_.actuator_name(record->spacecraft, record->actuator);
-    count_unsent(statuses_.write(dds::to_sample(*record, spacecraft, actuator, service_)));
+    count_unsent(answers_.commands.write(dds::to_sample(*record, spacecraft, actuator, service_)));
     ++counts_.verdicts;
   }
   return true;
+}
+
+void Publisher::publish_step_replies(std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const auto record = segment_->step_replies.pop()) {
+      count_unsent(answers_.steps.write(dds::to_sample(*record, service_)));
+    }
+  }
+}
+
+void Publisher::publish_control_answers() {
+  for (int i = 0; i < kBatch; ++i) {
+    const auto record = segment_->control_answers.pop();
+    if (!record) {
+      return;
+    }
+    count_unsent(answers_.controls.write(dds::to_sample(*record, service_)));
+    log_control(*record, directory_.spacecraft_name(record->spacecraft));
+  }
 }
 
 bool Publisher::publish_telemetry() {
@@ -157,7 +204,9 @@ bool Publisher::wait_for_readers(std::chrono::milliseconds timeout) {
   all = fleet_.wait_for_acks(left()) && all;
   all = status_.wait_for_acks(left()) && all;
   all = timing_.wait_for_acks(left()) && all;
-  return statuses_.writer().wait_for_acks(left()) && all;
+  all = answers_.steps.writer().wait_for_acks(left()) && all;
+  all = answers_.controls.writer().wait_for_acks(left()) && all;
+  return answers_.commands.writer().wait_for_acks(left()) && all;
 }
 
 }  // namespace adstar::bridge

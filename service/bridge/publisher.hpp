@@ -32,7 +32,7 @@ class Publisher {
   /// Registers the instances of the watched spacecraft.
   Publisher(const dds::Participant& participant, runtime::MappedSegment& segment,
             const scene::Scene& scene, const Directory& directory, const Options& options,
-            StatusWriter& statuses);
+            AnswerWriters& answers);
 
   /// Publishes at most one batch of everything; says what waits.
   Left publish_some();
@@ -46,12 +46,14 @@ class Publisher {
   bool publish_verdicts();
   bool publish_telemetry();
   bool publish_fleet();
+  void publish_step_replies(std::size_t count);
+  void publish_control_answers();
   void publish_health();
   void count_unsent(bool sent) { counts_.unsent += sent ? 0 : 1; }
 
   runtime::MappedSegment& segment_;
   const Directory& directory_;
-  StatusWriter& statuses_;
+  AnswerWriters& answers_;
   std::string service_;
   dds::ServiceFacts facts_;
   dds::Writer<adstar_AttitudeState> attitude_;

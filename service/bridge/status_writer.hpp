@@ -1,53 +1,30 @@
 #pragma once
-// CommandStatus: one instance per spacecraft, actuator and commander, forgotten when that commander
-// falls silent.
+// The answers that the bridge writes, by topic.
 
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <list>
-#include <mutex>
-#include <string>
-#include <string_view>
-#include <unordered_map>
 
-#include "service/dds/writer.hpp"
+#include "service/bridge/answer_writer.hpp"
 
 namespace adstar::bridge {
 
-/// Any thread.
-class StatusWriter {
- public:
-  using Clock = std::chrono::steady_clock;
+using StatusWriter = AnswerWriter<adstar_CommandStatus>;
+using StepReplyWriter = AnswerWriter<adstar_StepReply>;
+using ControlStatusWriter = AnswerWriter<adstar_RunControlStatus>;
 
-  /// Most instances kept at once; the one that was silent longest goes first.
-  static constexpr std::size_t kMost = 65'536;
+/// All of them.
+struct AnswerWriters {
+  explicit AnswerWriters(const dds::Participant& participant)
+      : commands(participant), steps(participant), controls(participant) {}
 
-  explicit StatusWriter(const dds::Participant& participant, std::size_t most = kMost)
-      : writer_(participant), most_(most) {}
+  void forget_silent(std::chrono::seconds silence, StatusWriter::Clock::time_point now) {
+    commands.forget_silent(silence, now);
+    steps.forget_silent(silence, now);
+    controls.forget_silent(silence, now);
+  }
 
-  /// False when it could not be sent.
-  bool write(const adstar_CommandStatus& status, Clock::time_point now = Clock::now());
-
-  /// Ends the instances that were not written to for `silence`; at most a thousand a call.
-  void forget_silent(std::chrono::seconds silence, Clock::time_point now = Clock::now());
-
-  std::size_t instances() const;
-  dds::Writer<adstar_CommandStatus>& writer() noexcept { return writer_; }
-
- private:
-  struct Use {
-    adstar_CommandStatus key;
-    std::string text;
-    Clock::time_point last;
-  };
-  void forget_oldest();
-
-  dds::Writer<adstar_CommandStatus> writer_;
-  std::size_t most_;
-  mutable std::mutex mutex_;
-  std::list<Use> uses_;                                                    ///< the oldest first
-  std::unordered_map<std::string_view, std::list<Use>::iterator> by_key_;  ///< views Use::text
+  StatusWriter commands;
+  StepReplyWriter steps;
+  ControlStatusWriter controls;
 };
 
 }  // namespace adstar::bridge

@@ -5,7 +5,11 @@
 
 namespace adstar::dds {
 
+using runtime::ControlAction;
+using runtime::ControlRefusal;
 using runtime::Reason;
+using runtime::StepOutcome;
+using runtime::StepRefusal;
 using runtime::Verdict;
 
 static_assert(static_cast<int>(Verdict::accepted) == adstar_VERDICT_ACCEPTED);
@@ -29,6 +33,35 @@ static_assert(static_cast<int>(Reason::not_recorded) == adstar_REASON_NOT_RECORD
 static_assert(static_cast<int>(runtime::RunState::running) == adstar_SERVICE_RUNNING);
 static_assert(static_cast<int>(runtime::RunState::stopped) == adstar_SERVICE_STOPPED);
 static_assert(static_cast<int>(runtime::RunState::halted) == adstar_SERVICE_HALTED);
+static_assert(static_cast<int>(runtime::RunState::waiting) == adstar_SERVICE_WAITING);
+static_assert(static_cast<int>(runtime::RunState::paused) == adstar_SERVICE_PAUSED);
+static_assert(static_cast<int>(StepOutcome::accepted) == adstar_STEP_ACCEPTED);
+static_assert(static_cast<int>(StepOutcome::done) == adstar_STEP_DONE);
+static_assert(static_cast<int>(StepOutcome::ended) == adstar_STEP_ENDED);
+static_assert(static_cast<int>(StepOutcome::interrupted) == adstar_STEP_INTERRUPTED);
+static_assert(static_cast<int>(StepOutcome::refused) == adstar_STEP_REFUSED);
+static_assert(static_cast<int>(StepRefusal::none) == adstar_STEP_REFUSAL_NONE);
+static_assert(static_cast<int>(StepRefusal::old_sequence) == adstar_STEP_REFUSAL_OLD_SEQUENCE);
+static_assert(static_cast<int>(StepRefusal::busy) == adstar_STEP_REFUSAL_BUSY);
+static_assert(static_cast<int>(StepRefusal::too_many_steps) == adstar_STEP_REFUSAL_TOO_MANY_STEPS);
+static_assert(static_cast<int>(StepRefusal::not_standing) == adstar_STEP_REFUSAL_NOT_STANDING);
+static_assert(static_cast<int>(StepRefusal::halted) == adstar_STEP_REFUSAL_HALTED);
+static_assert(static_cast<int>(ControlAction::pause) == adstar_CONTROL_PAUSE);
+static_assert(static_cast<int>(ControlAction::resume) == adstar_CONTROL_RESUME);
+static_assert(static_cast<int>(ControlAction::reset) == adstar_CONTROL_RESET);
+static_assert(static_cast<int>(ControlAction::set_state) == adstar_CONTROL_SET_STATE);
+static_assert(static_cast<int>(ControlAction::set_inertia) == adstar_CONTROL_SET_INERTIA);
+static_assert(static_cast<int>(ControlRefusal::none) == adstar_CONTROL_REFUSAL_NONE);
+static_assert(static_cast<int>(ControlRefusal::not_allowed) == adstar_CONTROL_REFUSAL_NOT_ALLOWED);
+static_assert(static_cast<int>(ControlRefusal::unknown_spacecraft) ==
+              adstar_CONTROL_REFUSAL_UNKNOWN_SPACECRAFT);
+static_assert(static_cast<int>(ControlRefusal::bad_state) == adstar_CONTROL_REFUSAL_BAD_STATE);
+static_assert(static_cast<int>(ControlRefusal::bad_inertia) == adstar_CONTROL_REFUSAL_BAD_INERTIA);
+static_assert(static_cast<int>(ControlRefusal::not_now) == adstar_CONTROL_REFUSAL_NOT_NOW);
+static_assert(static_cast<int>(ControlRefusal::old_sequence) ==
+              adstar_CONTROL_REFUSAL_OLD_SEQUENCE);
+static_assert(static_cast<int>(ControlRefusal::not_recorded) ==
+              adstar_CONTROL_REFUSAL_NOT_RECORDED);
 static_assert(runtime::kStartAtNextBeat == adstar_START_AT_NEXT_BEAT);
 static_assert(runtime::kFlagUnresolvedAngle == adstar_FLAG_UNRESOLVED_ANGLE);
 static_assert(runtime::kFlagUnresolvedEdges == adstar_FLAG_UNRESOLVED_EDGES);
@@ -62,6 +95,14 @@ std::uint32_t number(const Enumeration& value) noexcept {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   return bits;
+}
+
+/// The enumerator of that number, up to the last one known.
+template <class Known, class Enumeration>
+std::optional<Known> known(const Enumeration& value, Known last) noexcept {
+  const std::uint32_t bits = number(value);
+  return bits <= static_cast<std::uint32_t>(last) ? std::optional(static_cast<Known>(bits))
+                                                  : std::nullopt;
 }
 
 std::uint32_t clip32(std::uint64_t count) noexcept {
@@ -102,6 +143,56 @@ adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string
   sample.effective_start_time_ns = record.start_ns;
   sample.effective_end_time_ns = record.end_ns;
   sample.torque_applied_n_m = vector(record.torque_n_m);
+  return sample;
+}
+
+runtime::StepRequestRecord to_record(const adstar_StepRequest& sample) noexcept {
+  runtime::StepRequestRecord record;
+  record.requester = {sample.requester.high, sample.requester.low};
+  record.sequence = sample.sequence_number;
+  record.steps = sample.steps;
+  return record;
+}
+
+runtime::ControlRecord to_record(const adstar_RunControl& sample,
+                                 std::uint32_t spacecraft) noexcept {
+  const adstar_Quaternion& q = sample.attitude_body_to_inertial;
+  const adstar_Vector3& omega = sample.angular_velocity_body_rad_s;
+  const adstar_InertiaTensor& J = sample.inertia_body_kg_m2;
+  runtime::ControlRecord record;
+  record.commander = {sample.commander.high, sample.commander.low};
+  record.sequence = sample.sequence_number;
+  record.action = static_cast<ControlAction>(number(sample.action));
+  record.spacecraft = spacecraft;
+  record.q_IB = {q.w, q.x, q.y, q.z};
+  record.omega_B_rad_s = {omega.x, omega.y, omega.z};
+  record.inertia_body_kg_m2 = {J.xx, J.yy, J.zz, J.xy, J.xz, J.yz};
+  return record;
+}
+
+adstar_StepReply to_sample(const runtime::StepReplyRecord& record,
+                           std::string_view service) noexcept {
+  adstar_StepReply sample{};
+  set_text(sample.service, service);
+  sample.requester = {record.requester.high, record.requester.low};
+  sample.sequence_number = record.sequence;
+  sample.outcome = static_cast<adstar_StepOutcome>(record.outcome);
+  sample.refusal = static_cast<adstar_StepRefusal>(record.refusal);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  return sample;
+}
+
+adstar_RunControlStatus to_sample(const runtime::ControlAnswerRecord& record,
+                                  std::string_view service) noexcept {
+  adstar_RunControlStatus sample{};
+  set_text(sample.service, service);
+  sample.commander = {record.commander.high, record.commander.low};
+  sample.sequence_number = record.sequence;
+  sample.action = static_cast<adstar_ControlAction>(record.action);
+  sample.refusal = static_cast<adstar_ControlRefusal>(record.refusal);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
   return sample;
 }
 
@@ -150,6 +241,7 @@ adstar_StepTiming to_sample(const runtime::TimingRecord& record,
                             std::string_view service) noexcept {
   adstar_StepTiming sample{};
   set_text(sample.service, service);
+  sample.state = static_cast<adstar_ServiceState>(record.state);
   sample.step = record.step;
   sample.time_ns = record.time_ns;
   sample.wake_up_lateness = phase(record, runtime::Phase::wake_up);
@@ -201,23 +293,28 @@ adstar_ServiceStatus to_sample(const runtime::StatusRecord& record,
   sample.bridge_restarts = clip32(record.bridge_restarts);
   sample.state_hash = record.state_hash;
   sample.state_hash_step = record.state_hash_step;
+  sample.run = clip32(record.run);
   return sample;
 }
 
 std::optional<Verdict> verdict_of(const adstar_CommandStatus& sample) noexcept {
-  const std::uint32_t value = number(sample.verdict);
-  if (value > static_cast<std::uint32_t>(Verdict::refused)) {
-    return std::nullopt;
-  }
-  return static_cast<Verdict>(value);
+  return known(sample.verdict, Verdict::refused);
 }
 
 std::optional<Reason> reason_of(const adstar_CommandStatus& sample) noexcept {
-  const std::uint32_t value = number(sample.reason);
-  if (value > static_cast<std::uint32_t>(Reason::not_recorded)) {
-    return std::nullopt;
-  }
-  return static_cast<Reason>(value);
+  return known(sample.reason, Reason::not_recorded);
+}
+
+std::optional<StepOutcome> outcome_of(const adstar_StepReply& sample) noexcept {
+  return known(sample.outcome, StepOutcome::refused);
+}
+
+std::optional<StepRefusal> refusal_of(const adstar_StepReply& sample) noexcept {
+  return known(sample.refusal, StepRefusal::halted);
+}
+
+std::optional<ControlRefusal> refusal_of(const adstar_RunControlStatus& sample) noexcept {
+  return known(sample.refusal, ControlRefusal::not_recorded);
 }
 
 }  // namespace adstar::dds

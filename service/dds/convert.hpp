@@ -10,6 +10,7 @@
 #include <cstring>
 #include <health.h>
 #include <optional>
+#include <run.h>
 #include <span>
 #include <string_view>
 #include <telemetry.h>
@@ -40,6 +41,16 @@ runtime::CommandRecord to_record(const adstar_TorqueCommand& sample, std::uint32
 adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string_view spacecraft,
                                std::string_view actuator, std::string_view service) noexcept;
 
+/// Client to service. An action that this program does not know stays one.
+runtime::StepRequestRecord to_record(const adstar_StepRequest& sample) noexcept;
+runtime::ControlRecord to_record(const adstar_RunControl& sample,
+                                 std::uint32_t spacecraft) noexcept;
+
+adstar_StepReply to_sample(const runtime::StepReplyRecord& record,
+                           std::string_view service) noexcept;
+adstar_RunControlStatus to_sample(const runtime::ControlAnswerRecord& record,
+                                  std::string_view service) noexcept;
+
 adstar_AttitudeState to_attitude(const runtime::TelemetryRecord& record,
                                  std::string_view spacecraft, std::string_view service) noexcept;
 adstar_MomentumState to_momentum(const runtime::TelemetryRecord& record,
@@ -63,5 +74,8 @@ adstar_ServiceStatus to_sample(const runtime::StatusRecord& record,
 /// Nothing when the enumerator is one that this program does not know.
 std::optional<runtime::Verdict> verdict_of(const adstar_CommandStatus& sample) noexcept;
 std::optional<runtime::Reason> reason_of(const adstar_CommandStatus& sample) noexcept;
+std::optional<runtime::StepOutcome> outcome_of(const adstar_StepReply& sample) noexcept;
+std::optional<runtime::StepRefusal> refusal_of(const adstar_StepReply& sample) noexcept;
+std::optional<runtime::ControlRefusal> refusal_of(const adstar_RunControlStatus& sample) noexcept;
 
 }  // namespace adstar::dds

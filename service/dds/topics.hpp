@@ -4,6 +4,7 @@
 
 #include <command.h>
 #include <health.h>
+#include <run.h>
 #include <telemetry.h>
 #include <tuple>
 
@@ -47,7 +48,14 @@ inline constexpr std::tuple kTopics{
                                 kLatest},
     Topic<adstar_StepTiming>{&adstar_StepTiming_desc, "adstar/step_timing", kLatest, kLatest},
     Topic<adstar_ServiceRoster>{&adstar_ServiceRoster_desc, "adstar/service_roster", kLatest,
-                                kLatest}};
+                                kLatest},
+    Topic<adstar_StepRequest>{&adstar_StepRequest_desc, "adstar/step_request", kCommandsOut,
+                              kCommandsIn},
+    Topic<adstar_StepReply>{&adstar_StepReply_desc, "adstar/step_reply", kAnswers, kAnswers},
+    Topic<adstar_RunControl>{&adstar_RunControl_desc, "adstar/run_control", kCommandsOut,
+                             kCommandsIn},
+    Topic<adstar_RunControlStatus>{&adstar_RunControlStatus_desc, "adstar/run_control_status",
+                                   kAnswers, kAnswers}};
 
 template <class T>
 constexpr const Topic<T>& topic_of() {

@@ -29,15 +29,25 @@ SchemeFacts facts_of(const std::string& scheme) {
   return facts;
 }
 
+std::string pace_text(const scene::Simulation& simulation) {
+  switch (simulation.pace) {
+    case scene::Pace::clock:
+      return fmt::format("clock, rate {}", short_number(simulation.rate));
+    case scene::Pace::free:
+      return "free, as fast as it can";
+    case scene::Pace::lockstep:
+      return "lockstep, a step for every one that a StepRequest asks for";
+  }
+  return scene::name_of(simulation.pace);
+}
+
 std::string simulation_report(const scene::Simulation& simulation) {
-  const bool clock = simulation.pace == scene::Pace::clock;
   std::string text = fmt::format(
       "simulation\n  step      {}, scheme {} of order {}\n  duration  {}\n  pace      {}\n",
       scene::format_duration(simulation.step_ns), simulation.scheme,
       facts_of(simulation.scheme).order,
       simulation.duration_ns ? scene::format_duration(*simulation.duration_ns) : "endless",
-      clock ? fmt::format("clock, rate {}", short_number(simulation.rate))
-            : "free, as fast as it can");
+      pace_text(simulation));
   if (simulation.epoch) {
     text += fmt::format("  epoch     {} at t = 0\n", *simulation.epoch);
   }

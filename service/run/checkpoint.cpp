@@ -16,11 +16,13 @@ struct Header {
   std::uint64_t format = kFormat;
   std::uint64_t run = 0;
   std::uint64_t fingerprint = 0;
+  std::uint64_t resets = 0;
   std::uint64_t step = 0;
   std::uint64_t next_number = 0;
   std::uint64_t first_journal = 0;
   std::uint64_t vehicles = 0;
   std::uint64_t gate_words = 0;
+  std::uint64_t control_words = 0;
 };
 
 std::span<const std::byte> bytes_of(const std::vector<runtime::VehicleState>& vehicles) {
@@ -30,11 +32,13 @@ std::span<const std::byte> bytes_of(const std::vector<runtime::VehicleState>& ve
 }  // namespace
 
 Bytes to_bytes(const Checkpoint& c) {
-  const Header header{kMagic,       kFormat,       c.run,           c.fingerprint,
-                      c.step,       c.next_number, c.first_journal, c.vehicles.size(),
-                      c.gate.size()};
+  const Header header{kMagic,        kFormat,          c.run,
+                      c.fingerprint, c.at.resets,      c.at.step,
+                      c.next_number, c.first_journal,  c.vehicles.size(),
+                      c.gate.size(), c.controls.size()};
   const std::span<const std::byte> parts[] = {
-      std::as_bytes(std::span(&header, 1)), bytes_of(c.vehicles), std::as_bytes(std::span(c.gate))};
+      std::as_bytes(std::span(&header, 1)), bytes_of(c.vehicles), std::as_bytes(std::span(c.gate)),
+      std::as_bytes(std::span(c.controls))};
   std::size_t length = 0;
   for (const auto& part : parts) {
     length += part.size();
@@ -58,24 +62,34 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
   if (header->format != kFormat) {
     throw RunError("is a checkpoint of another format: made by another version of adstar");
   }
+  // Each count against what is there before it is multiplied: they may be anything.
   constexpr std::uint64_t kVehicle = sizeof(runtime::VehicleState);
-  // Division, not products: the counts may be anything.
-  if (header->vehicles > bytes.size() / kVehicle || header->gate_words > bytes.size() / 8 ||
-      header->vehicles * kVehicle + header->gate_words * 8 + 8 != bytes.size()) {
+  const std::uint64_t most_words = bytes.size() / 8;
+  if (header->vehicles > bytes.size() / kVehicle || header->gate_words > most_words ||
+      header->control_words > most_words ||
+      header->vehicles * kVehicle + (header->gate_words + header->control_words + 1) * 8 !=
+          bytes.size()) {
     throw RunError("is cut off or changed: its length is not what it says");
   }
   Checkpoint c{header->run,
                header->fingerprint,
-               header->step,
+               {header->resets, header->step},
                header->next_number,
                header->first_journal,
+               {},
                {},
                {}};
   c.vehicles.resize(header->vehicles);
   c.gate.resize(header->gate_words);
-  std::memcpy(static_cast<void*>(c.vehicles.data()), bytes.data(), header->vehicles * kVehicle);
-  std::memcpy(c.gate.data(), bytes.data() + header->vehicles * kVehicle, header->gate_words * 8);
-  bytes = bytes.subspan(bytes.size() - 8);
+  c.controls.resize(header->control_words);
+  const auto fill = [&bytes](auto& records) {
+    const std::size_t length = records.size() * sizeof records[0];
+    std::memcpy(static_cast<void*>(records.data()), bytes.data(), length);
+    bytes = bytes.subspan(length);
+  };
+  fill(c.vehicles);
+  fill(c.gate);
+  fill(c.controls);
   if (take<std::uint64_t>(bytes) != checksum(whole.first(whole.size() - 8))) {
     throw RunError("was changed: its checksum does not match");
   }

@@ -14,11 +14,12 @@ namespace adstar::run {
 struct Checkpoint {
   std::uint64_t run = 0;          ///< of which run
   std::uint64_t fingerprint = 0;  ///< of its scene (scene_fingerprint)
-  std::uint64_t step = 0;
+  runtime::Instant at;
   std::uint64_t next_number = 1;    ///< of the first journal record that is not in here
   std::uint64_t first_journal = 1;  ///< count of the oldest journal file with such a record
   std::vector<runtime::VehicleState> vehicles;
-  std::vector<std::uint64_t> gate;  ///< CommandGate::save
+  std::vector<std::uint64_t> gate;      ///< CommandGate::save
+  std::vector<std::uint64_t> controls;  ///< ControlMemory::save
 };
 
 Bytes to_bytes(const Checkpoint& checkpoint);

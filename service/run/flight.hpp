@@ -5,23 +5,29 @@
 #include <span>
 
 #include "service/runtime/fleet.hpp"
+#include "service/runtime/fleet_snapshot.hpp"
 #include "service/runtime/gate.hpp"
 #include "service/runtime/journal.hpp"
+#include "service/runtime/run_control.hpp"
 
 namespace adstar::run {
 
+using runtime::Instant;
+
 struct Flight {
   runtime::CommandGate& gate;
+  runtime::ControlMemory& controls;
   runtime::Fleet* fleet = nullptr;  ///< null: the gate alone, which does not look at the fleet
   std::int64_t step_ns = 0;
-  std::uint64_t step = 0;  ///< the next beat
+  Instant at;  ///< before beat at.step
 };
 
-/// Hands the records of beat flight.step at the front of `records` to the gate; returns how many.
+/// Hears the records of the present beat at the front of `records`, up to a reset; returns how many.
 std::size_t hear(Flight& flight, std::span<const runtime::JournalRecord> records);
 
-/// Computes the beats before `until` with their records; returns how many of `records` they took.
+/// Computes the beats before `until` with their records, as far as those reach over resets; returns how many
+/// of `records` that took.
 std::size_t carry_on(Flight& flight, std::span<const runtime::JournalRecord> records,
-                     std::uint64_t until);
+                     const Instant& until);
 
 }  // namespace adstar::run

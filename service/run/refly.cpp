@@ -4,6 +4,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -29,12 +30,11 @@ std::vector<VehicleState> states_of(const runtime::Fleet& fleet) {
   return states;
 }
 
-/// Whole ones, by step.
-std::map<std::uint64_t, Checkpoint> whole_checkpoints(const RunDirectory& directory,
-                                                      const scene::Scene& scene,
-                                                      std::uint64_t fingerprint,
-                                                      std::vector<std::string>& notes) {
-  std::map<std::uint64_t, Checkpoint> whole;
+std::map<Instant, Checkpoint> whole_checkpoints(const RunDirectory& directory,
+                                                const scene::Scene& scene,
+                                                std::uint64_t fingerprint,
+                                                std::vector<std::string>& notes) {
+  std::map<Instant, Checkpoint> whole;
   for (const Numbered& file : directory.checkpoints()) {
     try {
       Checkpoint checkpoint = checkpoint_from(read_bytes(file.path));
@@ -42,7 +42,7 @@ std::map<std::uint64_t, Checkpoint> whole_checkpoints(const RunDirectory& direct
           checkpoint.vehicles.size() != scene.spacecraft.size()) {
         throw RunError("does not belong to this run and its scene");
       }
-      whole.emplace(checkpoint.step, std::move(checkpoint));
+      whole.emplace(checkpoint.at, std::move(checkpoint));
     } catch (const RunError& error) {
       notes.push_back(fmt::format("{} {}", file.path.string(), error.what()));
     }
@@ -68,10 +68,13 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
   Reflight result;
   const auto hot = HotJournalFile::open(directory.facts().run);
   const auto checkpoints = whole_checkpoints(directory, scene, fingerprint, result.notes);
-  const auto ring = std::make_unique<runtime::VerdictRing>();
+  const auto verdicts = std::make_unique<runtime::VerdictRing>();
+  const auto answers = std::make_unique<runtime::ControlAnswerRing>();
   runtime::Fleet fleet(scene.spacecraft, scene.simulation.scheme, scene.simulation.limits);
-  runtime::CommandGate gate(scene.spacecraft, *ring);
-  Flight flight{gate, &fleet, scene.simulation.step_ns, 0};
+  fleet.keep_start();
+  runtime::CommandGate gate(scene.spacecraft, *verdicts);
+  runtime::ControlMemory controls(*answers);
+  Flight flight{gate, controls, &fleet, scene.simulation.step_ns, {}};
 
   RunRecords records = read_records(directory, hot ? &**hot : nullptr, 1);
   const std::uint64_t heard_by_the_newest =
@@ -89,54 +92,55 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
   if (!records.gap.empty()) {
     result.notes.push_back(records.gap + ": compared up to there");
   }
-  result.from_step = result.same_until = flight.step;
+  result.from = result.same_until = flight.at;
 
-  std::map<std::uint64_t, std::uint64_t> hashes;
+  std::map<Instant, std::uint64_t> hashes;
   for (const runtime::JournalRecord& record : records.hashes) {
-    hashes[record.step] = record.payload[0];
+    hashes[{record.note, record.step}] = record.payload[0];
   }
-  std::uint64_t last = flight.step;
-  last = std::max(last, checkpoints.empty() ? 0 : checkpoints.rbegin()->first);
-  last = std::max(last, hashes.empty() ? 0 : hashes.rbegin()->first);
-  if (!records.gap.empty() && !records.commands.empty()) {
-    last = std::min(last, records.commands.back().step);
+  std::set<Instant> stops;
+  for (const auto& [at, hash] : hashes) {
+    stops.insert(at);
   }
+  for (const auto& [at, checkpoint] : checkpoints) {
+    stops.insert(at);
+  }
+  stops.erase(stops.begin(), stops.upper_bound(flight.at));
 
-  std::span<const runtime::JournalRecord> left(records.commands);
-  while (flight.step < last && !result.differs_at) {
-    const auto next_hash = hashes.upper_bound(flight.step);
-    const auto next_checkpoint = checkpoints.upper_bound(flight.step);
-    std::uint64_t until = last;
-    until = next_hash == hashes.end() ? until : std::min(until, next_hash->first);
-    until = next_checkpoint == checkpoints.end() ? until : std::min(until, next_checkpoint->first);
-    const std::size_t taken = carry_on(flight, left, until);
+  std::span<const runtime::JournalRecord> left(records.heard);
+  std::size_t done = 0;
+  for (const Instant& stop : stops) {
+    const std::size_t taken = carry_on(flight, left, stop);
     left = left.subspan(taken);
-    result.commands += taken;
-    ring->skip_all();
+    result.heard += taken;
+    verdicts->skip_all();
+    if (flight.at != stop) {
+      break;  // beyond a gap
+    }
     const std::vector<VehicleState> states = states_of(fleet);
-    if (const auto hash = hashes.find(until); hash != hashes.end()) {
+    if (const auto hash = hashes.find(stop); hash != hashes.end()) {
       ++result.hashes;
-      if (hash->second != state_hash(until, states)) {
-        result.differs_at = until;
+      if (hash->second != state_hash(stop.step, states)) {
+        result.differs_at = stop;
       }
     }
-    if (const auto checkpoint = checkpoints.find(until); checkpoint != checkpoints.end()) {
+    if (const auto checkpoint = checkpoints.find(stop); checkpoint != checkpoints.end()) {
       ++result.checkpoints;
       if (const std::string what = difference(checkpoint->second, states, gate, scene);
           !what.empty()) {
-        result.differs_at = until;
+        result.differs_at = stop;
         result.differs_in = what;
       }
     }
-    if (!result.differs_at) {
-      result.same_until = until;
+    if (result.differs_at) {
+      break;
     }
-    if (!progress(static_cast<double>(flight.step - result.from_step) /
-                  static_cast<double>(std::max<std::uint64_t>(1, last - result.from_step)))) {
+    result.same_until = stop;
+    if (!progress(static_cast<double>(++done) / static_cast<double>(stops.size()))) {
       break;
     }
   }
-  result.to_step = flight.step;
+  result.to = flight.at;
   return result;
 }
 

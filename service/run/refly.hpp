@@ -7,17 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "service/run/flight.hpp"
 #include "service/run/run_directory.hpp"
 #include "service/scene/scene.hpp"
 
 namespace adstar::run {
 
 struct Reflight {
-  std::uint64_t from_step = 0, to_step = 0;
-  std::uint64_t commands = 0;
+  Instant from, to;
+  std::uint64_t heard = 0;                    ///< commands and run controls
   std::uint64_t hashes = 0, checkpoints = 0;  ///< compared, all equal unless differs_at
-  std::uint64_t same_until = 0;               ///< the last step where they were compared and equal
-  std::optional<std::uint64_t> differs_at;    ///< the first where they were not
+  Instant same_until;                         ///< the last where they were compared and equal
+  std::optional<Instant> differs_at;          ///< the first where they were not
   std::string differs_in;                     ///< what of it, where that is known
   std::vector<std::string> notes;             ///< what could not be read
 };

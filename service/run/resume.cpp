@@ -30,7 +30,7 @@ bool add(RunRecords& all, const JournalRecord& record) {
     }
     return false;
   }
-  all.commands.push_back(record);
+  all.heard.push_back(record);
   ++all.next_number;
   return true;
 }
@@ -63,18 +63,15 @@ class LastVerdicts {
   std::deque<runtime::VerdictRecord> last_;
 };
 
-/// How far the run had come, for all that is known.
+/// How far the run had come since its last reset, for all that is known.
 std::uint64_t last_known_step(const RunRecords& records, const runtime::HotJournal* hot,
-                              std::uint64_t checkpoint_step) {
-  std::uint64_t step = checkpoint_step;
+                              const Instant& at) {
+  std::uint64_t step = at.step;
   if (hot != nullptr) {
     step = std::max(step, hot->step.load(std::memory_order_acquire));
   }
-  if (!records.commands.empty()) {
-    step = std::max(step, records.commands.back().step);
-  }
-  if (!records.hashes.empty()) {
-    step = std::max(step, records.hashes.back().step);
+  for (const JournalRecord& hash : records.hashes) {
+    step = hash.note == at.resets ? std::max(step, hash.step) : step;
   }
   return step;
 }
@@ -94,7 +91,7 @@ RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal
       continue;
     }
     for (const JournalRecord& record : text.records) {
-      if (record.kind == JournalKind::command) {
+      if (record.kind != JournalKind::state_hash) {
         all.last_in_files = std::max(all.last_in_files, record.number);
       }
       if (!add(all, record)) {
@@ -105,8 +102,6 @@ RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal
   if (hot != nullptr) {
     for (std::size_t i = 0; i < hot->ring.size() && add(all, hot->ring.peek(i)); ++i) {}
   }
-  std::stable_sort(all.hashes.begin(), all.hashes.end(),
-                   [](const JournalRecord& a, const JournalRecord& b) { return a.step < b.step; });
   return all;
 }
 
@@ -125,9 +120,12 @@ std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
             "it back, or begin another run",
             file.path.string(), directory.facts().scene_file.string()));
       }
-      const auto ring = std::make_unique<runtime::VerdictRing>();
-      runtime::CommandGate gate(scene.spacecraft, *ring);
-      if (checkpoint.vehicles.size() != scene.spacecraft.size() || !gate.load(checkpoint.gate)) {
+      const auto verdicts = std::make_unique<runtime::VerdictRing>();
+      const auto answers = std::make_unique<runtime::ControlAnswerRing>();
+      runtime::CommandGate gate(scene.spacecraft, *verdicts);
+      runtime::ControlMemory controls(*answers);
+      if (checkpoint.vehicles.size() != scene.spacecraft.size() || !gate.load(checkpoint.gate) ||
+          !controls.load(checkpoint.controls)) {
         throw RunError("does not fit its scene");
       }
       return checkpoint;
@@ -141,11 +139,12 @@ std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
 }
 
 void set_to(Flight& flight, const Checkpoint& checkpoint) {
-  flight.step = checkpoint.step;
+  flight.at = checkpoint.at;
   flight.gate.load(checkpoint.gate);
+  flight.controls.load(checkpoint.controls);
   if (flight.fleet != nullptr) {
     for (std::size_t i = 0; i < checkpoint.vehicles.size(); ++i) {
-      restore(flight.fleet->vehicles()[i], checkpoint.vehicles[i]);
+      restore(*flight.fleet, i, checkpoint.vehicles[i]);
     }
   }
 }
@@ -162,7 +161,7 @@ Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
   if (checkpoint) {
     set_to(flight, *checkpoint);
   }
-  resumed.checkpoint_step = flight.step;
+  resumed.checkpoint = flight.at;
   resumed.records = read_records(directory, hot, checkpoint ? checkpoint->next_number : 1);
   const RunRecords& records = resumed.records;
   resumed.notes.insert(resumed.notes.end(), records.damage.begin(), records.damage.end());
@@ -175,7 +174,7 @@ Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
       throw RunError(fmt::format(
           "{}; the run cannot go on as it was. --accept-loss goes on from step {}, where what is "
           "known ends",
-          what, records.commands.empty() ? flight.step : records.commands.back().step));
+          what, records.heard.empty() ? flight.at.step : records.heard.back().step));
     }
     resumed.notes.push_back(what + "; the run goes on without them");
   }
@@ -184,20 +183,25 @@ Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
         "what the run had in memory is gone (the machine was started anew?): beats and commands "
         "since the last sync are lost, and nothing before");
   }
-  const std::uint64_t until =
-      records.gap.empty() ? last_known_step(records, hot, flight.step)
-                          : (records.commands.empty() ? flight.step : records.commands.back().step);
   LastVerdicts last(verdicts);
-  std::span<const JournalRecord> left(records.commands);
-  while (flight.step < until) {
-    // A beat at a time: the ring of verdicts is bounded.
-    left = left.subspan(carry_on(flight, left, flight.step + 1));
+  std::span<const JournalRecord> left(records.heard);
+  const auto carry_on_to = [&](std::uint64_t step) {
+    const std::uint64_t resets = flight.at.resets;
+    while (flight.at.resets == resets && flight.at.step < step) {
+      // A beat at a time: the ring of verdicts is bounded.
+      left = left.subspan(carry_on(flight, left, {resets, flight.at.step + 1}));
+      last.collect();
+    }
+    left = left.subspan(hear(flight, left));
     last.collect();
+  };
+  while (!left.empty()) {
+    carry_on_to(left.front().step);
   }
-  hear(flight, left);  // of the beat that was begun
-  last.collect();
-  last.say_again(static_cast<std::int64_t>(flight.step) * flight.step_ns);
-  resumed.commands = records.commands.size();
+  if (records.gap.empty()) {
+    carry_on_to(last_known_step(records, hot, flight.at));
+  }
+  last.say_again(static_cast<std::int64_t>(flight.at.step) * flight.step_ns);
   return resumed;
 }
 

@@ -16,9 +16,9 @@ namespace adstar::run {
 
 /// What a run's files and memory hold of its journal.
 struct RunRecords {
-  std::vector<runtime::JournalRecord> commands;  ///< in turn, none missing between
-  std::vector<runtime::JournalRecord> hashes;    ///< by step
-  std::uint64_t next_number = 1;                 ///< of the record that would come next
+  std::vector<runtime::JournalRecord> heard;  ///< commands and controls, none missing between
+  std::vector<runtime::JournalRecord> hashes;
+  std::uint64_t next_number = 1;    ///< of the record that would come next
   std::uint64_t last_in_files = 0;  ///< number of the last that needs no memory to survive
   std::vector<std::string> damage;  ///< a sentence for each file that is not whole
   std::string gap;                  ///< what is missing before later records; empty: nothing
@@ -34,12 +34,11 @@ std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
                                             const scene::Scene& scene, std::uint64_t fingerprint,
                                             std::vector<std::string>& refused);
 
-/// Fleet and gate as the checkpoint has them. `flight.gate` must be new.
+/// The flight as the checkpoint has it. Its gate must be new.
 void set_to(Flight& flight, const Checkpoint& checkpoint);
 
 struct Resumed {
-  std::uint64_t checkpoint_step = 0;
-  std::uint64_t commands = 0;  ///< heard again
+  Instant checkpoint;  ///< where it began
   RunRecords records;
   std::vector<std::string> notes;  ///< what was wrong, and what was done about it
 };

@@ -7,19 +7,22 @@ namespace adstar::run {
 using runtime::JournalRecord;
 
 RunLog::RunLog(const RunDirectory& directory, const scene::Scene& scene, std::uint64_t fingerprint,
-               runtime::HotJournal& hot, const runtime::CommandGate& gate, std::uint64_t step,
-               std::uint64_t next_number, std::uint64_t last_in_files)
+               runtime::HotJournal& hot, const Flight& start, std::uint64_t next_number,
+               std::uint64_t last_in_files)
     : directory_(directory),
       fingerprint_(fingerprint),
       hot_(hot),
-      unsaid_(std::make_unique<runtime::VerdictRing>()),
-      gate_(scene.spacecraft, *unsaid_),
-      flight_{gate_, nullptr, scene.simulation.step_ns, step},
+      verdicts_(std::make_unique<runtime::VerdictRing>()),
+      answers_(std::make_unique<runtime::ControlAnswerRing>()),
+      gate_(scene.spacecraft, *verdicts_),
+      controls_(*answers_),
+      flight_{gate_, controls_, nullptr, start.step_ns, start.at},
       next_number_(next_number),
       last_in_files_(last_in_files),
       journal_count_(directory.journals().empty() ? 1 : directory.journals().back().number + 1),
       journal_(directory.journal_path(journal_count_), directory.facts().run) {
-  gate_.load(gate.save());
+  gate_.load(start.gate.save());
+  controls_.load(start.controls.save());
   for (const Numbered& file : directory.checkpoints()) {
     next_checkpoint_ = std::max(next_checkpoint_, file.number + 1);
     try {
@@ -49,30 +52,31 @@ bool RunLog::move_records() {
   return !records.empty();
 }
 
-void RunLog::note_hash(std::uint64_t step, std::uint64_t hash) {
+void RunLog::note_hash(const Instant& at, std::uint64_t hash) {
   const JournalRecord record =
-      make_journal_record(runtime::JournalKind::state_hash, last_in_files_, step, hash);
+      make_journal_record(runtime::JournalKind::state_hash, last_in_files_, at.step,
+                          static_cast<std::uint32_t>(at.resets), hash);
   journal_.append(std::span(&record, 1));
 }
 
-void RunLog::write_checkpoint(std::uint64_t step,
-                              const std::vector<runtime::VehicleState>& vehicles,
+void RunLog::write_checkpoint(const Instant& at, const std::vector<runtime::VehicleState>& vehicles,
                               bool keep_all_journals) {
   const std::vector<JournalRecord> records(unheard_.begin(), unheard_.end());
-  const std::size_t heard = carry_on(flight_, records, step);
+  const std::size_t heard = carry_on(flight_, records, at);
   unheard_.erase(unheard_.begin(), unheard_.begin() + static_cast<std::ptrdiff_t>(heard));
   next_number_ += heard;
-  unsaid_->skip_all();
+  verdicts_->skip_all();
 
   // What was moved but belongs to later beats stands in the present file.
   const std::uint64_t first_journal = journal_count_ + (unheard_.empty() ? 1 : 0);
   const Checkpoint checkpoint{directory_.facts().run,
                               fingerprint_,
-                              step,
+                              at,
                               next_number_,
                               keep_all_journals ? 1 : first_journal,
                               vehicles,
-                              gate_.save()};
+                              gate_.save(),
+                              controls_.save()};
   const std::filesystem::path path = directory_.checkpoint_path(next_checkpoint_);
   journal_.sync();
   replace_file(path, to_bytes(checkpoint));

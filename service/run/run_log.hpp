@@ -19,23 +19,23 @@ namespace adstar::run {
 
 class RunLog {
  public:
-  /// `gate`: as the tick's is when it starts at `step` with record `next_number`. `last_in_files`: of the
+  /// `start`: as the tick is when it starts, with record `next_number`. `last_in_files`: of the
   /// records that need not be written again. Throws RunError, as all of these do when a file cannot
   /// be written; then nothing is lost, and the same call may be made again.
   RunLog(const RunDirectory& directory, const scene::Scene& scene, std::uint64_t fingerprint,
-         runtime::HotJournal& hot, const runtime::CommandGate& gate, std::uint64_t step,
-         std::uint64_t next_number, std::uint64_t last_in_files);
+         runtime::HotJournal& hot, const Flight& start, std::uint64_t next_number,
+         std::uint64_t last_in_files);
 
   /// Moves what is in memory to the file; true when there was something.
   bool move_records();
   void sync() { journal_.sync(); }
 
-  /// After move_records(): the hash of the fleet's state when `step` was reached.
-  void note_hash(std::uint64_t step, std::uint64_t hash);
+  /// After move_records(): the hash of the fleet's state there.
+  void note_hash(const Instant& at, std::uint64_t hash);
 
-  /// A checkpoint of the fleet at `step`, all of whose commands were moved. The three newest are kept; of
+  /// A checkpoint of the fleet there, all of whose commands were moved. The three newest are kept; of
   /// the journal what they need, or all of it.
-  void write_checkpoint(std::uint64_t step, const std::vector<runtime::VehicleState>& vehicles,
+  void write_checkpoint(const Instant& at, const std::vector<runtime::VehicleState>& vehicles,
                         bool keep_all_journals);
 
  private:
@@ -48,8 +48,11 @@ class RunLog {
   const RunDirectory& directory_;
   std::uint64_t fingerprint_;
   runtime::HotJournal& hot_;
-  std::unique_ptr<runtime::VerdictRing> unsaid_;  ///< what the second gate would say
+  // What the second gate and the second memory would say goes nowhere.
+  std::unique_ptr<runtime::VerdictRing> verdicts_;
+  std::unique_ptr<runtime::ControlAnswerRing> answers_;
   runtime::CommandGate gate_;
+  runtime::ControlMemory controls_;
   Flight flight_;
   std::uint64_t next_number_;  ///< of the first record that flight_ has not heard
   std::uint64_t last_in_files_;

@@ -156,6 +156,11 @@ class BatchStepper final : public Stepper {
     return unresolved;
   }
 
+  void replace_body(std::size_t vehicle, const RigidBody<double>& body) noexcept override {
+    bodies_[vehicle] = BodyOf<Scheme, double>(body);
+    packed_[vehicle] = pack(body);
+  }
+
  private:
   struct Step {
     std::span<Vehicle> vehicles;

@@ -56,4 +56,9 @@ inline std::uint64_t realign(BeatClock& clock, std::uint64_t n, std::int64_t now
   return missed;
 }
 
+/// Beat n is due now, and the others around it: the clock stood still, and nothing was missed.
+inline void restart(BeatClock& clock, std::uint64_t n, std::int64_t now_ns) {
+  clock.base_ns += now_ns - due_ns(clock, n);
+}
+
 }  // namespace adstar::runtime

@@ -21,6 +21,14 @@ void assign(std::array<double, N>& target, const Vec3<double>& v) noexcept {
   target = {v.x, v.y, v.z};
 }
 
+/// What the residuals are measured from: here and now.
+void open_accounts(Vehicle& vehicle) noexcept {
+  vehicle.state.impulse_I = {};
+  vehicle.state.work = {};
+  vehicle.H_0 = vehicle.state.H_I.value();
+  vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
+}
+
 template <class Scheme>
 class SchemeStepper final : public Stepper {
  public:
@@ -38,6 +46,10 @@ class SchemeStepper final : public Stepper {
       unresolved += step_vehicle<Scheme>(bodies_[i], vehicles[i], t_ns, h_ns, limits) ? 0 : 1;
     }
     return unresolved;
+  }
+
+  void replace_body(std::size_t vehicle, const RigidBody<double>& body) noexcept override {
+    bodies_[vehicle] = BodyOf<Scheme, double>(body);
   }
 
  private:
@@ -86,13 +98,53 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
   for (const scene::Spacecraft& craft : spacecraft) {
     Vehicle vehicle{
         craft.initial, craft.torques, 0, RigidBody<double>(craft.inertia_body_kg_m2), {}};
-    vehicle.H_0 = vehicle.state.H_I.value();
-    vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
+    open_accounts(vehicle);
     vehicles_.push_back(std::move(vehicle));
   }
   stepper_ = make_threaded_stepper(vehicles_, threads, [&](std::span<const Vehicle> part) {
     return make_stepper(part, scheme, lanewise);
   });
+}
+
+void Fleet::set_state(std::size_t vehicle, const Quat<double>& q_IB,
+                      const Vec3<double>& H_I) noexcept {
+  vehicles_[vehicle].state = make_state(q_IB, H_I);
+  open_accounts(vehicles_[vehicle]);
+}
+
+void Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept {
+  vehicles_[vehicle].body = body;
+  stepper_->replace_body(vehicle, body);
+  open_accounts(vehicles_[vehicle]);
+}
+
+void Fleet::keep_start() {
+  start_.reserve(vehicles_.size());
+  for (const Vehicle& vehicle : vehicles_) {
+    start_.push_back({vehicle.state, vehicle.body, vehicle.H_0, vehicle.E_0});
+  }
+}
+
+bool Fleet::reset() noexcept {
+  if (start_.size() != vehicles_.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    Vehicle& vehicle = vehicles_[i];
+    const Start& start = start_[i];
+    vehicle.state = start.state;
+    vehicle.flags = 0;
+    vehicle.H_0 = start.H_0;
+    vehicle.E_0 = start.E_0;
+    vehicle.body = start.body;
+    stepper_->replace_body(i, start.body);
+    for (Torque<double>& torque : vehicle.torques) {
+      if (auto* const commanded = std::get_if<Commanded<double>>(&torque)) {
+        commanded->intervals = 0;
+      }
+    }
+  }
+  return true;
 }
 
 TelemetryRecord sample(const Vehicle& vehicle) noexcept {

@@ -31,6 +31,8 @@ class Stepper {
   /// Over [t_ns, t_ns + h_ns]; returns how many could not be resolved.
   virtual std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
                            const StepLimits& limits) noexcept = 0;
+  /// Prepares one body anew. Between steps; never allocates.
+  virtual void replace_body(std::size_t vehicle, const RigidBody<double>& body) noexcept = 0;
 };
 
 /// How the vehicles of a fleet are stepped; the bits are the same. `automatic`: the widest
@@ -50,11 +52,32 @@ class Fleet {
     return stepper_->step(vehicles_, t_ns, h_ns, limits_);
   }
 
+  /// From now on it moves from this attitude (of any length but zero) and momentum; its accounts
+  /// begin anew. Between steps, like the two below.
+  void set_state(std::size_t vehicle, const Quat<double>& q_IB, const Vec3<double>& H_I) noexcept;
+
+  /// Another mass distribution: momentum and attitude keep their bits, the rate changes. The accounts
+  /// begin anew.
+  void set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept;
+
+  /// Keeps a copy of what the vehicles are now, for reset().
+  void keep_start();
+  /// Back to what keep_start() found, no torque commanded. False when it was never called.
+  bool reset() noexcept;
+
   std::vector<Vehicle>& vehicles() noexcept { return vehicles_; }
   const std::vector<Vehicle>& vehicles() const noexcept { return vehicles_; }
 
  private:
+  struct Start {
+    State<double> state;
+    RigidBody<double> body;
+    Vec3<double> H_0;
+    double E_0 = 0;
+  };
+
   std::vector<Vehicle> vehicles_;
+  std::vector<Start> start_;
   StepLimits limits_;
   std::unique_ptr<Stepper> stepper_;
 };

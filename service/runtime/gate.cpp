@@ -135,7 +135,7 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
       put(verdict);
       return;
     }
-    journal_->write(JournalKind::command, beat.step, command);
+    journal_->write(JournalKind::command, beat.step, 0, command);
   }
   Stream* const stream = memory_.find_or_make(command.commander, number, ++heard_);
   if (stream == nullptr) {
@@ -182,7 +182,8 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
     actuator.busy = true;
     busy_.push_back(number);
   }
-  if (waits) {
+  // Standing changes what is said, never what is decided: a recorded run does not know of it.
+  if (waits || beat.standing) {
     verdict.verdict = Verdict::accepted;
     put(verdict);
   }
@@ -263,6 +264,27 @@ void CommandGate::begin(const Beat& beat, Fleet* fleet) noexcept {
       ++i;
     }
   }
+}
+
+void CommandGate::reset(const Beat& beat) noexcept {
+  for (const std::uint32_t number : busy_) {
+    Actuator& actuator = actuators_[number];
+    while (actuator.head != kNone) {
+      const std::uint32_t entry = actuator.head;
+      const Live& live = pool_[entry];
+      if (!live.begun) {
+        VerdictRecord verdict = live.verdict;
+        verdict.verdict = Verdict::superseded;
+        verdict.step = beat.step;
+        verdict.time_ns = beat.t_ns;
+        conclude(memory_.at(live.stream), verdict);
+      }
+      actuator.head = live.next;
+      release(entry);
+    }
+    actuator.busy = false;
+  }
+  busy_.clear();
 }
 
 void CommandGate::advance(Actuator& actuator, const Beat& beat, Fleet* fleet) noexcept {

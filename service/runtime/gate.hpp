@@ -27,6 +27,7 @@ struct Beat {
   std::uint64_t step = 0;
   std::int64_t t_ns = 0;  ///< where it begins, simulation time
   std::int64_t h_ns = 0;
+  bool standing = false;  ///< the clock stands before it: what is to begin with it waits for that
 };
 
 struct GateCounters {
@@ -67,6 +68,9 @@ class CommandGate {
   /// the gate is to be thrown away, when `words` cannot have come from save().
   std::vector<std::uint64_t> save() const;
   bool load(std::span<const std::uint64_t> words);
+
+  /// The clock is set back: what waits is superseded, what is in force ends.
+  void reset(const Beat& beat) noexcept;
 
   const GateCounters& counters() const noexcept { return counters_; }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the tick writes down before it counts: every command that changes the gate, with the beat that
-// took it. Scene, checkpoint and journal give the same bits again.
+// What the tick writes down before it counts: every command that changes the gate and every run control
+// that changes the fleet, with the beat that took it. Scene, checkpoint and journal give the same bits again.
 //
 // The tick pushes into a ring in a file of /dev/shm: a page there is never written back, so a store
 // never faults nor waits for a disk, and it outlives the process. Another thread moves the ring's
@@ -18,8 +18,9 @@
 namespace adstar::runtime {
 
 enum class JournalKind : std::uint32_t {
-  command,    ///< payload: CommandRecord
-  state_hash  ///< payload: one word, the hash of the fleet's state when `step` was reached
+  command,     ///< payload: CommandRecord
+  control,     ///< payload: ControlRecord that was tried; note: its ControlRefusal
+  state_hash,  ///< payload: one word, the hash of the fleet's state at `step`; note: resets before
 };
 
 struct JournalRecord {
@@ -27,16 +28,16 @@ struct JournalRecord {
   std::uint64_t number = 0;  ///< rises by one from record to record; a state hash repeats the last
   std::uint64_t step = 0;    ///< of the beat that took it
   JournalKind kind = JournalKind::command;
-  std::uint32_t reserved = 0;
+  std::uint32_t note = 0;
   std::array<std::uint64_t, kPayloadWords> payload{};
 };
 
 template <class Payload>
 JournalRecord make_journal_record(JournalKind kind, std::uint64_t number, std::uint64_t step,
-                                  const Payload& payload) noexcept {
+                                  std::uint32_t note, const Payload& payload) noexcept {
   static_assert(std::is_trivially_copyable_v<Payload>);
   static_assert(sizeof(Payload) <= sizeof(JournalRecord::payload));
-  JournalRecord record{number, step, kind, 0, {}};
+  JournalRecord record{number, step, kind, note, {}};
   std::memcpy(record.payload.data(), &payload, sizeof payload);
   return record;
 }
@@ -71,13 +72,14 @@ class JournalWriter {
   bool has_room() const noexcept { return hot_.ring.has_room(); }
 
   template <class Payload>
-  void write(JournalKind kind, std::uint64_t step, const Payload& payload) noexcept {
-    if (hot_.ring.push(make_journal_record(kind, next_number_, step, payload))) {
+  void write(JournalKind kind, std::uint64_t step, std::uint32_t note,
+             const Payload& payload) noexcept {
+    if (hot_.ring.push(make_journal_record(kind, next_number_, step, note, payload))) {
       ++next_number_;
     }
   }
 
-  /// All beats before `step` are computed.
+  /// All beats before `step` are computed. Before a reset is written: 0.
   void reached(std::uint64_t step) noexcept { hot_.step.store(step, std::memory_order_release); }
 
  private:

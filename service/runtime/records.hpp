@@ -127,7 +127,7 @@ struct FleetHeader {
 };
 
 /// Same values and order as ServiceState in idl/health.idl.
-enum class RunState : std::uint64_t { running, stopped, halted };
+enum class RunState : std::uint64_t { running, stopped, halted, waiting, paused };
 
 /// Counts, once a second and at the end: becomes ServiceStatus.
 struct StatusRecord {
@@ -144,6 +144,7 @@ struct StatusRecord {
   std::uint64_t bridge_restarts = 0;
   std::uint64_t state_hash = 0;       ///< of every spacecraft's state at state_hash_step
   std::uint64_t state_hash_step = 0;  ///< 0: none yet
+  std::uint64_t run = 0;              ///< how often it was set back to the scene's start
 };
 
 struct QuantilesRecord {
@@ -176,6 +177,7 @@ struct TickAccount {
 
 /// Becomes StepTiming.
 struct TimingRecord {
+  std::uint64_t state = 0;  ///< RunState
   std::uint64_t step = 0;
   std::int64_t time_ns = 0;
   std::array<PhaseRecord, kPhases> phases;  ///< by Phase
@@ -191,6 +193,83 @@ struct TimingRecord {
   std::uint64_t fifo_scheduling = 0;
   std::uint64_t memory_locked = 0;
   std::uint64_t cpu_pinned = 0;
+};
+
+/// One StepRequest: so many steps are to be taken while the clock stands. Not yet judged.
+struct StepRequestRecord {
+  CommanderId requester;
+  std::uint64_t sequence = 0;
+  std::uint64_t steps = 0;
+  std::int64_t received_ns = 0;  ///< monotonic clock, by the bridge; 0: not stamped
+};
+
+/// Same values and order as StepOutcome in idl/run.idl.
+enum class StepOutcome : std::uint32_t {
+  accepted,     ///< under way; the answer follows
+  done,         ///< the clock stands where it was asked to
+  ended,        ///< the run is over: its duration is reached
+  interrupted,  ///< the clock was paused, reset, halted or stopped before all steps were taken
+  refused       ///< see StepRefusal
+};
+
+/// Same values and order as StepRefusal in idl/run.idl.
+enum class StepRefusal : std::uint32_t {
+  none,
+  old_sequence,
+  busy,
+  too_many_steps,
+  not_standing,
+  halted
+};
+
+/// The answer to one StepRequest.
+struct StepReplyRecord {
+  CommanderId requester;
+  std::uint64_t sequence = 0;
+  StepOutcome outcome = StepOutcome::refused;
+  StepRefusal refusal = StepRefusal::none;
+  std::uint64_t step = 0;    ///< reached
+  std::int64_t time_ns = 0;  ///< simulation time there
+};
+
+/// Same values and order as ControlAction in idl/run.idl.
+enum class ControlAction : std::uint32_t { pause, resume, reset, set_state, set_inertia };
+
+/// One RunControl, its name resolved to an index. Not yet judged.
+struct ControlRecord {
+  CommanderId commander;
+  std::uint64_t sequence = 0;
+  ControlAction action = ControlAction::pause;
+  std::uint32_t spacecraft = 0;  ///< of set_state and set_inertia
+  std::array<double, 4> q_IB{};  ///< w, x, y, z; of any length but zero
+  std::array<double, 3> omega_B_rad_s{};
+  std::array<double, 6> inertia_body_kg_m2{};  ///< xx, yy, zz, xy, xz, yz
+  std::int64_t received_ns = 0;                ///< monotonic clock, by the bridge; 0: not stamped
+};
+
+/// Same values and order as ControlRefusal in idl/run.idl.
+enum class ControlRefusal : std::uint32_t {
+  none,  ///< it was done
+  not_allowed,
+  unknown_spacecraft,
+  bad_state,
+  bad_inertia,
+  not_now,
+  old_sequence,
+  unknown_action,
+  not_recorded
+};
+
+/// The answer to one RunControl.
+struct ControlAnswerRecord {
+  CommanderId commander;
+  std::uint64_t sequence = 0;
+  ControlAction action = ControlAction::pause;
+  std::uint32_t spacecraft = 0;
+  ControlRefusal refusal = ControlRefusal::none;
+  std::uint32_t reserved = 0;
+  std::uint64_t step = 0;    ///< the clock's, afterwards
+  std::int64_t time_ns = 0;  ///< simulation time there
 };
 
 }  // namespace adstar::runtime

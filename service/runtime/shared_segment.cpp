@@ -25,6 +25,23 @@ std::size_t total_bytes(std::size_t fleet_size) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
+/// One system call when the other side sleeps on the word, none when not.
+void rise(std::atomic<std::uint32_t>& word, const std::atomic<std::uint32_t>& sleeps) noexcept {
+  word.fetch_add(1, std::memory_order_seq_cst);
+  if (sleeps.load(std::memory_order_seq_cst) != 0) {
+    // FUTEX_WAKE never waits, whatever the other side does with the word.
+    syscall(SYS_futex, &word, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
+  }
+}
+
+void sleep_on(std::atomic<std::uint32_t>& word, std::atomic<std::uint32_t>& sleeps,
+              std::uint32_t seen, int timeout_ms) noexcept {
+  sleeps.store(1, std::memory_order_seq_cst);
+  const timespec timeout{timeout_ms / 1000, (timeout_ms % 1000) * 1'000'000L};
+  syscall(SYS_futex, &word, FUTEX_WAIT, seen, &timeout, nullptr, 0);
+  sleeps.store(0, std::memory_order_seq_cst);
+}
+
 }  // namespace
 
 MappedSegment MappedSegment::create(std::size_t fleet_size) {
@@ -99,18 +116,17 @@ std::span<std::uint64_t> MappedSegment::fleet_storage() const noexcept {
 }
 
 void wake_bridge(SharedSegment& segment) noexcept {
-  segment.wake_count.fetch_add(1, std::memory_order_seq_cst);
-  if (segment.bridge_sleeps.load(std::memory_order_seq_cst) != 0) {
-    // FUTEX_WAKE never waits, whatever the bridge does with the word.
-    syscall(SYS_futex, &segment.wake_count, FUTEX_WAKE, INT_MAX, nullptr, nullptr, 0);
-  }
+  rise(segment.wake_count, segment.bridge_sleeps);
 }
 
 void sleep_until_woken(SharedSegment& segment, std::uint32_t seen, int timeout_ms) noexcept {
-  segment.bridge_sleeps.store(1, std::memory_order_seq_cst);
-  const timespec timeout{timeout_ms / 1000, (timeout_ms % 1000) * 1'000'000L};
-  syscall(SYS_futex, &segment.wake_count, FUTEX_WAIT, seen, &timeout, nullptr, 0);
-  segment.bridge_sleeps.store(0, std::memory_order_seq_cst);
+  sleep_on(segment.wake_count, segment.bridge_sleeps, seen, timeout_ms);
+}
+
+void wake_tick(SharedSegment& segment) noexcept { rise(segment.push_count, segment.tick_sleeps); }
+
+void sleep_until_pushed(SharedSegment& segment, std::uint32_t seen, int timeout_ms) noexcept {
+  sleep_on(segment.push_count, segment.tick_sleeps, seen, timeout_ms);
 }
 
 }  // namespace adstar::runtime

@@ -33,13 +33,20 @@ struct SharedSegment {
       0};  ///< futex word: rises when there is something to publish
   std::atomic<std::uint32_t> bridge_sleeps{0};  ///< 1 while the bridge waits on wake_count
   std::atomic<std::uint32_t> bridge_rounds{0};  ///< by the bridge: rises with every round it makes
+  std::atomic<std::uint32_t> push_count{
+      0};  ///< futex word: rises when the bridge has pushed something for the tick
+  std::atomic<std::uint32_t> tick_sleeps{0};  ///< 1 while the tick stands and waits on push_count
 
-  SpscRing<CommandRecord, 4096> commands;      ///< bridge → tick
-  SpscRing<VerdictRecord, 8192> verdicts;      ///< tick → bridge
-  SpscRing<TelemetryRecord, 16384> telemetry;  ///< tick → bridge
-  LatestValue<StatusRecord> status;            ///< housekeeping → bridge
-  LatestValue<TimingRecord> timing;            ///< housekeeping → bridge
-  LatestWords fleet;                           ///< tick → bridge; its words follow this struct
+  SpscRing<CommandRecord, 4096> commands;              ///< bridge → tick
+  SpscRing<VerdictRecord, 8192> verdicts;              ///< tick → bridge
+  SpscRing<TelemetryRecord, 16384> telemetry;          ///< tick → bridge
+  SpscRing<StepRequestRecord, 64> step_requests;       ///< bridge → tick
+  SpscRing<StepReplyRecord, 256> step_replies;         ///< tick → bridge
+  SpscRing<ControlRecord, 64> controls;                ///< bridge → tick
+  SpscRing<ControlAnswerRecord, 256> control_answers;  ///< tick → bridge
+  LatestValue<StatusRecord> status;                    ///< housekeeping → bridge
+  LatestValue<TimingRecord> timing;                    ///< housekeeping → bridge
+  LatestWords fleet;  ///< tick → bridge; its words follow this struct
 };
 
 inline constexpr std::uint64_t kLayout = 0x6164'7374'6172'0000ULL ^ sizeof(SharedSegment);
@@ -89,5 +96,12 @@ void wake_bridge(SharedSegment& segment) noexcept;
 /// Bridge side: sleeps until woken or timeout. Call with the wake_count read before the rings were
 /// found empty.
 void sleep_until_woken(SharedSegment& segment, std::uint32_t seen, int timeout_ms) noexcept;
+
+/// Bridge side: something was pushed for the tick. A system call only while the clock stands.
+void wake_tick(SharedSegment& segment) noexcept;
+
+/// Tick side, while the clock stands: sleeps until something is pushed or timeout. Call with the
+/// push_count read before the rings were found empty.
+void sleep_until_pushed(SharedSegment& segment, std::uint32_t seen, int timeout_ms) noexcept;
 
 }  // namespace adstar::runtime

@@ -49,6 +49,15 @@ class ThreadedStepper final : public Stepper {
     return unresolved;
   }
 
+  // The workers wait at the gate between steps.
+  void replace_body(std::size_t vehicle, const RigidBody<double>& body) noexcept override {
+    const auto after =
+        std::upper_bound(parts_.begin(), parts_.end(), vehicle,
+                         [](std::size_t index, const Part& part) { return index < part.first; });
+    const Part& part = *std::prev(after);
+    part.stepper->replace_body(vehicle - part.first, body);
+  }
+
  private:
   struct Job {
     std::span<Vehicle> vehicles;

@@ -1,52 +1,17 @@
 #include "service/runtime/tick.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
 #include <limits>
-#include <time.h>
+
+#include "service/runtime/tick_parts.hpp"
 
 namespace adstar::runtime {
 namespace {
-
-constexpr std::int64_t kSecond = 1'000'000'000;
-constexpr std::int64_t kMostAge_ns = 2 * kSecond;
-
-std::int64_t monotonic_ns() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kSecond + now.tv_nsec;
-}
-
-void sleep_until(std::int64_t due) noexcept {
-  const timespec deadline{due / kSecond, due % kSecond};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {}
-}
-
-/// One writer: a load and a store, no locked instruction.
-void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
-  counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
-}
-
-/// A high-water mark.
-void raise(std::atomic<std::uint64_t>& mark, std::uint64_t level) noexcept {
-  if (level > mark.load(std::memory_order_relaxed)) {
-    mark.store(level, std::memory_order_relaxed);
-  }
-}
-
-bool due_at(std::uint64_t step, std::uint64_t every, bool everything) noexcept {
-  return every != 0 && (everything || step % every == 0);
-}
 
 /// Whole steps in a second of simulation time, at least one.
 std::uint64_t snapshot_every(std::int64_t step_ns) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(1, kSecond / step_ns));
 }
-
-/// The larger; what is no number is the worst of all.
-double worse(double a, double b) noexcept { return a >= b || std::isnan(a) ? a : b; }
 
 }  // namespace
 
@@ -69,30 +34,48 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
                      : std::array<std::int64_t, kPhases>{}),
       fleet_(scene.spacecraft, scene.simulation.scheme, scene.simulation.limits),
       gate_(scene.spacecraft, segment->verdicts),
+      step_requests_(segment->step_replies),
+      controls_(segment->control_answers),
+      obeys_run_control_(scene.service.run_control),
       snapshot_every_(snapshot_every(step_ns_)),
       snapshot_(scene.spacecraft.size()),
-      fleet_words_(fleet_words(segment.fleet_size())) {}
+      fleet_words_(fleet_words(segment.fleet_size())) {
+  if (obeys_run_control_) {
+    fleet_.keep_start();
+  }
+}
 
 void Tick::run(const std::atomic<bool>& stop) noexcept {
-  report_.step.store(first_step_, std::memory_order_relaxed);
-  publish(first_step_, true);
+  publish(step(), true);
+  told_ = true;
   BeatClock clock = make_beat_clock(monotonic_ns(), step_ns_, rate_);
-  clock.base_ns -= beats_to_ns(clock, first_step_);
+  restart(clock, step(), clock.base_ns);
   const std::int64_t period_ns = pace_ == scene::Pace::clock ? beats_to_ns(clock, 1) : 0;
-  std::int64_t ended = due_ns(clock, first_step_);
-  for (std::uint64_t n = first_step_; !stop.load(std::memory_order_relaxed) && n < last_step_;
-       ++n) {
-    const std::int64_t begun = pace_ == scene::Pace::clock ? await_beat(clock, n, ended) : ended;
-    if (halted()) {
-      break;
+  std::int64_t ended = due_ns(clock, step());
+  report_.asked_ns.store(ended, std::memory_order_relaxed);
+  while (!stop.load(std::memory_order_relaxed) && (halted() || step() < last_step_)) {
+    if (stands()) {
+      stand(stop);
+      ended = monotonic_ns();
+      continue;
+    }
+    const std::uint64_t n = step();
+    if (restart_clock_) {
+      restart_clock_ = false;
+      restart(clock, n, ended);
+    }
+    const bool by_clock = pace_ == scene::Pace::clock && !paused();
+    const std::int64_t begun = by_clock ? await_beat(clock, n, ended) : await_room(ended);
+    serve_requests(begun);
+    if (stands() || restart_clock_) {
+      ended = begun;
+      continue;
     }
     const BeatTimes times = beat(n, begun);
-    account(times, period_ns);
+    account(times, by_clock ? period_ns : 0);
     ended = times.handed_over;
   }
-  if (halted()) {
-    stand_still(stop);
-  }
+  step_requests_.interrupt(face());
 }
 
 /// Sleeps until beat n is due, unless it is already; returns when it began.
@@ -156,12 +139,20 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
     journal_->reached(n + 1);
   }
   if ((n + 1) % snapshot_every_ == 0) {
-    snapshot_.offer(fleet_.vehicles(), n + 1);
+    snapshot_.offer(fleet_.vehicles(), {report_.run.load(std::memory_order_relaxed), n + 1});
   }
   publish_counters();
 
-  const bool everything = segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0;
-  publish(n + 1, everything);
+  const bool ended = n + 1 == last_step_;
+  const std::uint64_t allowed = step_requests_.allowed();
+  const bool last_asked_for = allowed == 1 || (allowed > 1 && ended);
+  told_ =
+      segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0 || last_asked_for;
+  publish(n + 1, told_);
+  step_requests_.stepped(face(), ended);
+  if (last_asked_for) {
+    wake_bridge(*segment_);
+  }
   times.handed_over = monotonic_ns();
   return times;
 }
@@ -173,9 +164,7 @@ void Tick::take_commands(const Beat& now, std::int64_t begun_ns) noexcept {
     if (!command) {
       break;
     }
-    // What lay in the ring while this process stood still is nobody's wish any more; who means it
-    // repeats it.
-    if (command->received_ns != 0 && begun_ns - command->received_ns > kMostAge_ns) {
+    if (is_stale(command->received_ns, begun_ns)) {
       continue;
     }
     if (halted()) {
@@ -227,111 +216,6 @@ void Tick::halt(Phase phase, std::int64_t took_ns) noexcept {
     report_.halted_ns.store(took_ns, std::memory_order_relaxed);
     report_.halted.store(static_cast<std::uint32_t>(phase) + 1, std::memory_order_release);
   }
-}
-
-/// The clock stands: commands are refused, snapshots are served.
-void Tick::stand_still(const std::atomic<bool>& stop) noexcept {
-  constexpr std::int64_t kLook_ns = kSecond / 100;
-  const std::uint64_t step = report_.step.load(std::memory_order_relaxed);
-  const Beat now{step, static_cast<std::int64_t>(step) * step_ns_, step_ns_};
-  publish(step, true);
-  while (!stop.load(std::memory_order_relaxed)) {
-    const std::int64_t begun = monotonic_ns();
-    take_commands(now, begun);
-    publish_counters();
-    if (segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0) {
-      publish(step, true);
-    } else if (segment_->verdicts.size() > 0) {
-      wake_bridge(*segment_);
-    }
-    sleep_until(begun + kLook_ns);
-  }
-}
-
-std::uint32_t Tick::topics_at(std::uint64_t step, bool everything) const noexcept {
-  return (due_at(step, telemetry_.attitude_every, everything) ? kTopicAttitude : 0U) |
-         (due_at(step, telemetry_.momentum_every, everything) ? kTopicMomentum : 0U);
-}
-
-void Tick::publish(std::uint64_t step, bool everything) noexcept {
-  const std::uint32_t topics = topics_at(step, everything);
-  const bool fleet = due_at(step, telemetry_.fleet_every, everything);
-  if (topics != 0) {
-    double worst = 0;
-    for (const std::uint32_t spacecraft : telemetry_.watched) {
-      if (!push_sample(spacecraft, topics, 0, step)) {
-        add(report_.telemetry_lost, 1);
-      }
-      worst = worse(worst, momentum_residual_relative(fleet_.vehicles()[spacecraft]));
-    }
-    if (telemetry_.fleet_every == 0) {
-      report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
-    }
-  }
-  if (fleet) {
-    write_fleet(step, 0);
-  }
-  const std::size_t verdicts = segment_->verdicts.size();
-  raise(report_.most_verdicts, verdicts);
-  raise(report_.most_telemetry, segment_->telemetry.size());
-  if (topics != 0 || fleet || verdicts > 0) {
-    wake_bridge(*segment_);
-  }
-}
-
-bool Tick::push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
-                       std::uint64_t step) noexcept {
-  const Vehicle& vehicle = fleet_.vehicles()[spacecraft];
-  TelemetryRecord record = sample(vehicle);
-  record.spacecraft = spacecraft;
-  record.topics = topics;
-  record.flags |= flags;
-  record.step = step;
-  record.time_ns = static_cast<std::int64_t>(step) * step_ns_;
-  return segment_->telemetry.push(record);
-}
-
-void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
-  const FleetHeader header{step, static_cast<std::int64_t>(step) * step_ns_,
-                           fleet_.vehicles().size()};
-  std::uint64_t* word = fleet_words_.data();
-  std::memcpy(word, &header, sizeof header);
-  word += sizeof header / sizeof *word;
-  double worst = 0;
-  for (const Vehicle& vehicle : fleet_.vehicles()) {
-    const TelemetryRecord full = sample(vehicle);
-    const FleetRecord member{full.q_IB,
-                             full.omega_B_rad_s,
-                             full.H_I_n_m_s,
-                             full.rotational_energy_j,
-                             full.energy_residual_j,
-                             full.flags | flags};
-    std::memcpy(word, &member, sizeof member);
-    word += sizeof member / sizeof *word;
-    worst = worse(worst, momentum_residual_relative(vehicle));
-  }
-  report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
-  segment_->fleet.write(segment_.fleet_storage(), fleet_words_);
-}
-
-void Tick::publish_final(int patience_ms) {
-  const std::uint64_t step = report_.step.load(std::memory_order_relaxed);
-  const std::int64_t patience_ends = monotonic_ns() + patience_ms * (kSecond / 1000);
-  const std::uint32_t topics = topics_at(step, true);
-  for (const std::uint32_t spacecraft : telemetry_.watched) {
-    while (topics != 0 && !push_sample(spacecraft, topics, kFlagFinal, step)) {
-      if (monotonic_ns() > patience_ends) {
-        add(report_.telemetry_lost, 1);
-        break;
-      }
-      wake_bridge(*segment_);
-      sleep_until(monotonic_ns() + kSecond / 1000);
-    }
-  }
-  if (telemetry_.fleet_every != 0) {
-    write_fleet(step, kFlagFinal);
-  }
-  wake_bridge(*segment_);
 }
 
 }  // namespace adstar::runtime

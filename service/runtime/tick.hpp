@@ -15,7 +15,9 @@
 #include "service/runtime/fleet_snapshot.hpp"
 #include "service/runtime/gate.hpp"
 #include "service/runtime/histogram.hpp"
+#include "service/runtime/run_control.hpp"
 #include "service/runtime/shared_segment.hpp"
+#include "service/runtime/step_requests.hpp"
 #include "service/scene/scene.hpp"
 
 namespace adstar::runtime {
@@ -45,6 +47,11 @@ struct TickReport {
   Histogram tick_body;
   std::atomic<std::uint32_t> halted{0};    ///< 1 + the Phase that was over its budget; 0: it runs
   std::atomic<std::int64_t> halted_ns{0};  ///< what that phase took
+  std::atomic<std::uint32_t> paused{0};    ///< 1 while RunControl holds the clock
+  std::atomic<std::uint32_t> waiting{0};   ///< 1 while the clock stands for want of a StepRequest
+  std::atomic<std::int64_t> asked_ns{
+      0};                             ///< monotonic time of the last StepRequest, or of the start
+  std::atomic<std::uint64_t> run{0};  ///< rises with each reset
 
   const Histogram& phase(Phase which) const noexcept {
     return phases[static_cast<std::size_t>(which)];
@@ -62,10 +69,14 @@ class Tick {
   }
 
   /// Before run(): a run that goes on at a later step; fleet() and gate() are set to it by the caller.
-  void go_on_from(std::uint64_t step) noexcept { first_step_ = step; }
+  void go_on_from(const Instant& at) noexcept {
+    report_.step.store(at.step, std::memory_order_relaxed);
+    report_.run.store(at.resets, std::memory_order_relaxed);
+  }
 
   /// Runs until `stop` is set or the scene's duration is over. Call from the thread that is to be
-  /// real-time. Halted, it goes on serving snapshots and refusing commands until `stop` is set.
+  /// real-time. Halted, it goes on serving snapshots and refusing commands until `stop` is set;
+  /// paused, or in lock-step, until it may step again.
   void run(const std::atomic<bool>& stop) noexcept;
 
   /// Publishes every spacecraft's state now, marked final; after run(), off real time: waits up to
@@ -76,6 +87,7 @@ class Tick {
   const Fleet& fleet() const noexcept { return fleet_; }
   Fleet& fleet() noexcept { return fleet_; }                ///< not while it runs
   CommandGate& gate() noexcept { return gate_; }            ///< not while it runs
+  ControlMemory& controls() noexcept { return controls_; }  ///< not while it runs
   FleetSnapshot& snapshot() noexcept { return snapshot_; }  ///< the reader's end
   std::int64_t time_ns() const noexcept {
     return static_cast<std::int64_t>(report_.step.load(std::memory_order_relaxed)) * step_ns_;
@@ -84,12 +96,22 @@ class Tick {
  private:
   /// Commands judged in one beat, at most; more wait in the ring for the next.
   static constexpr int kCommandsPerBeat = 256;
+  /// The same of run control and of step requests.
+  static constexpr int kRequestsPerBeat = 16;
 
   /// When the parts of a beat ended, monotonic time [ns].
   struct BeatTimes {
     std::int64_t begun = 0, commanded = 0, stepped = 0, handed_over = 0;
   };
 
+  std::uint64_t step() const noexcept { return report_.step.load(std::memory_order_relaxed); }
+  bool halted() const noexcept { return report_.halted.load(std::memory_order_relaxed) != 0; }
+  bool paused() const noexcept { return report_.paused.load(std::memory_order_relaxed) != 0; }
+  bool stands() const noexcept;
+  Beat now() const noexcept;
+  ClockFace face() const noexcept;
+
+  // tick.cpp: beats
   std::int64_t await_beat(BeatClock& clock, std::uint64_t n, std::int64_t ended_ns) noexcept;
   void catch_up_or_skip(BeatClock& clock, std::uint64_t n, std::int64_t begun_ns) noexcept;
   BeatTimes beat(std::uint64_t n, std::int64_t begun_ns) noexcept;
@@ -98,8 +120,17 @@ class Tick {
   void judge(Phase phase, std::int64_t took_ns) noexcept;
   void halt(Phase phase, std::int64_t took_ns) noexcept;
   void publish_counters() noexcept;
-  bool halted() const noexcept { return report_.halted.load(std::memory_order_relaxed) != 0; }
-  void stand_still(const std::atomic<bool>& stop) noexcept;
+
+  // standing.cpp: those who hold the clock
+  void stand(const std::atomic<bool>& stop) noexcept;
+  void serve_requests(std::int64_t now_ns) noexcept;
+  void control(const ControlRecord& record) noexcept;
+  ControlRefusal objection(ControlAction action) const noexcept;
+  void follow(ControlAction action) noexcept;
+  bool answers_wait() const noexcept;
+  std::int64_t await_room(std::int64_t ended_ns) noexcept;
+
+  // publishing.cpp
   void publish(std::uint64_t step, bool everything) noexcept;
   std::uint32_t topics_at(std::uint64_t step, bool everything) const noexcept;
   bool push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
@@ -117,8 +148,12 @@ class Tick {
   std::array<std::int64_t, kPhases> budget_ns_;  ///< by Phase; 0: none
   Fleet fleet_;
   CommandGate gate_;
+  StepRequests step_requests_;
+  ControlMemory controls_;
+  bool obeys_run_control_;
+  bool restart_clock_ = false;  ///< the next beat is due when it comes
+  bool told_ = false;           ///< everything was published of what the fleet is now
   JournalWriter* journal_ = nullptr;
-  std::uint64_t first_step_ = 0;
   std::uint64_t snapshot_every_;  ///< steps: about a second of simulation time
   FleetSnapshot snapshot_;
   std::vector<std::uint64_t> fleet_words_;

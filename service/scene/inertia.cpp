@@ -46,30 +46,42 @@ std::optional<Eigen::Matrix3d> read_tensor(const Value& value) {
   return good ? std::optional(J) : std::nullopt;
 }
 
-bool is_diagonal(const Eigen::Matrix3d& J) {
-  return J(1, 0) == 0.0 && J(2, 0) == 0.0 && J(2, 1) == 0.0;
+bool is_diagonal(const Sym3<double>& J) noexcept {
+  return J.xy == 0.0 && J.xz == 0.0 && J.yz == 0.0;
 }
 
 }  // namespace
 
-std::optional<Flaw> flaw_of_inertia(const Eigen::Matrix3d& J) {
-  const auto m =
-      principal_moments(Sym3<double>{J(0, 0), J(1, 1), J(2, 2), J(1, 0), J(2, 0), J(2, 1)});
-  const std::string got = "principal moments " + number_text(m[0]) + ", " + number_text(m[1]) +
-                          ", " + number_text(m[2]);
+InertiaFault fault_of_inertia(const Sym3<double>& J) noexcept {
+  const auto m = principal_moments(J);
   // The rotations that find the moments of a full tensor leave them uncertain by a few roundings.
   const double noise =
       is_diagonal(J) ? 0.0 : 8.0 * std::numeric_limits<double>::epsilon() * std::fabs(m[2]);
   if (!(m[0] > noise)) {
-    return Flaw{got, "a positive definite tensor (every principal moment above zero)",
-                "moments about the centre of mass such as " + std::string(kExample)};
+    return InertiaFault::not_positive;
   }
   if (m[0] < kLeastMoment || m[2] > kMostMoment) {
-    return Flaw{got, "moments from 1e-120 to 1e+120 kg m^2", "SI units"};
+    return InertiaFault::out_of_range;
   }
-  if (m[0] + m[1] < m[2] * (1.0 - kTolerance)) {
-    return Flaw{got, "a largest moment up to the sum of the other two (triangle inequality)",
-                "a largest moment of at most " + number_text(m[0] + m[1])};
+  return m[0] + m[1] < m[2] * (1.0 - kTolerance) ? InertiaFault::triangle : InertiaFault::none;
+}
+
+std::optional<Flaw> flaw_of_inertia(const Eigen::Matrix3d& J) {
+  const Sym3<double> tensor{J(0, 0), J(1, 1), J(2, 2), J(1, 0), J(2, 0), J(2, 1)};
+  const auto m = principal_moments(tensor);
+  const std::string got = "principal moments " + number_text(m[0]) + ", " + number_text(m[1]) +
+                          ", " + number_text(m[2]);
+  switch (fault_of_inertia(tensor)) {
+    case InertiaFault::not_positive:
+      return Flaw{got, "a positive definite tensor (every principal moment above zero)",
+                  "moments about the centre of mass such as " + std::string(kExample)};
+    case InertiaFault::out_of_range:
+      return Flaw{got, "moments from 1e-120 to 1e+120 kg m^2", "SI units"};
+    case InertiaFault::triangle:
+      return Flaw{got, "a largest moment up to the sum of the other two (triangle inequality)",
+                  "a largest moment of at most " + number_text(m[0] + m[1])};
+    case InertiaFault::none:
+      break;
   }
   return std::nullopt;
 }

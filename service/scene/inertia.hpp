@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "adstar/vec3.hpp"
 #include "service/scene/fleet.hpp"
 
 namespace adstar::scene {
@@ -20,6 +21,12 @@ struct Inertia {
 
 /// Of what is fixed, everything is checked here; of what is drawn, each draw must be checked.
 std::optional<Inertia> read_inertia(const Value& value);
+
+/// What keeps a symmetric tensor from being that of a rigid body.
+enum class InertiaFault { none, not_positive, out_of_range, triangle };
+
+/// Of a tensor whose numbers are finite. Never allocates.
+InertiaFault fault_of_inertia(const Sym3<double>& J) noexcept;
 
 struct Flaw {
   std::string got, expected, remedy;

@@ -97,6 +97,17 @@ std::optional<std::string> read_text(const Value& value, const Want& want) {
   return value.node().text;
 }
 
+std::optional<bool> read_flag(const Value& value, std::string_view example) {
+  if (!value) {
+    return std::nullopt;
+  }
+  if (!value.is(Node::Kind::boolean)) {
+    value.refuse("true or false", example);
+    return std::nullopt;
+  }
+  return value.node().boolean;
+}
+
 std::optional<std::int64_t> read_integer(const Value& value, IntegerRange range, const Want& want) {
   if (!value) {
     return std::nullopt;

@@ -90,6 +90,8 @@ class Keys {
 
 std::optional<std::string> read_text(const Value& value, const Want& want);
 
+std::optional<bool> read_flag(const Value& value, std::string_view example);
+
 struct IntegerRange {
   std::int64_t least = std::numeric_limits<std::int64_t>::min();
   std::int64_t most = std::numeric_limits<std::int64_t>::max();

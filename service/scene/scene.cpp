@@ -21,6 +21,18 @@ std::string lines_of(const std::vector<std::string>& complaints) {
 
 }  // namespace
 
+const char* name_of(Pace pace) {
+  switch (pace) {
+    case Pace::clock:
+      return "clock";
+    case Pace::free:
+      return "free";
+    case Pace::lockstep:
+      return "lockstep";
+  }
+  return "unknown";
+}
+
 std::int64_t beat_ns(const Simulation& simulation) {
   return static_cast<std::int64_t>(static_cast<double>(simulation.step_ns) / simulation.rate);
 }

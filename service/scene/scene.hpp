@@ -19,14 +19,23 @@
 
 namespace adstar::scene {
 
-enum class Pace { clock, free };
+enum class Pace {
+  clock,    ///< the wall clock, times a rate
+  free,     ///< as fast as it can
+  lockstep  ///< a step for every one that a StepRequest asks for
+};
+
+/// "clock", "free", "lockstep"
+const char* name_of(Pace pace);
 
 struct Simulation {
   std::int64_t step_ns = 0;
   std::string scheme = "coadjoint_rk4";
   std::optional<std::int64_t> duration_ns;  ///< whole steps; none: endless
   Pace pace = Pace::clock;
-  double rate = 1.0;                   ///< simulated seconds per second of wall clock
+  double rate = 1.0;  ///< simulated seconds per second of wall clock
+  /// Under Pace::lockstep: a silence of the requesters worth a warning; none: never.
+  std::optional<std::int64_t> lockstep_timeout_ns = 10'000'000'000;
   std::optional<std::string> epoch;    ///< ISO 8601 with its scale, e.g. "2026-01-01T00:00:00 UTC"
   std::optional<double> accuracy_rad;  ///< the attitude accuracy that the user states
   StepLimits limits;
@@ -83,9 +92,10 @@ struct Run {
 };
 
 struct Service {
-  std::string name;        ///< default: the host name
-  int priority = 80;       ///< SCHED_FIFO, 1 to 99; 0: ordinary scheduling
-  std::optional<int> cpu;  ///< pin the tick here
+  std::string name;          ///< default: the host name
+  int priority = 80;         ///< SCHED_FIFO, 1 to 99; 0: ordinary scheduling
+  std::optional<int> cpu;    ///< pin the tick here
+  bool run_control = false;  ///< RunControl is obeyed
 };
 
 struct Dds {

@@ -55,6 +55,8 @@ Service read_service(Keys& root) {
   if (const auto cpu = read_integer(keys.optional("cpu"), {0, processors - 1}, Want{range, last})) {
     service.cpu = static_cast<int>(*cpu);
   }
+  service.run_control =
+      read_flag(keys.optional("run_control"), "true").value_or(service.run_control);
   keys.refuse_unknown();
   return service;
 }

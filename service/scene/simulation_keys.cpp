@@ -29,12 +29,22 @@ std::optional<std::int64_t> read_run_length(const Value& value, std::int64_t ste
 }
 
 Pace read_pace(const Value& value) {
-  constexpr std::array<std::string_view, 2> kPaces{"clock", "free"};
-  if (value.is(Node::Kind::string) && value.node().text == "lockstep") {
-    value.refuse("one of clock, free (lockstep is not available yet)", "\"free\"");
-    return Pace::clock;
+  constexpr std::array<std::string_view, 3> kPaces{"clock", "free", "lockstep"};
+  return static_cast<Pace>(read_choice(value, kPaces).value_or(0));
+}
+
+void read_lockstep_timeout(const Value& value, Simulation& simulation) {
+  if (!value) {
+    return;
   }
-  return read_choice(value, kPaces).value_or(0) == 1 ? Pace::free : Pace::clock;
+  if (simulation.pace != Pace::lockstep) {
+    value.refuse("no lockstep_timeout beside pace = " + in_quotes(name_of(simulation.pace)),
+                 "removing it, or pace = \"lockstep\"");
+  } else if (value.is(Node::Kind::string) && value.node().text == "off") {
+    simulation.lockstep_timeout_ns.reset();
+  } else if (const auto ns = read_duration(value, "10s")) {
+    simulation.lockstep_timeout_ns = *ns;
+  }
 }
 
 void read_rate(const Value& value, Simulation& simulation) {
@@ -43,8 +53,9 @@ void read_rate(const Value& value, Simulation& simulation) {
   const bool positive = value && value.node().is_number() && value.node().real > 0.0;
   const auto rate = positive ? read_number(value, NumberRange{kSlowest, kFastest}, want)
                              : read_positive(value, want);
-  if (rate && simulation.pace == Pace::free) {
-    value.refuse("no rate beside pace = \"free\"", "removing it, or pace = \"clock\"");
+  if (rate && simulation.pace != Pace::clock) {
+    value.refuse("no rate beside pace = " + in_quotes(name_of(simulation.pace)),
+                 "removing it, or pace = \"clock\"");
   }
   simulation.rate = rate.value_or(simulation.rate);
 }
@@ -90,6 +101,7 @@ SimulationSection read_simulation(Keys& root) {
   }
   simulation.duration_ns = read_run_length(keys.optional("duration"), simulation.step_ns);
   simulation.pace = read_pace(keys.optional("pace"));
+  read_lockstep_timeout(keys.optional("lockstep_timeout"), simulation);
   read_rate(keys.optional("rate"), simulation);
   read_epochs(keys, simulation);
   simulation.accuracy_rad =

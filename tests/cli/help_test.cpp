@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "tests/cli/client.hpp"
 
 namespace adstar::testing {
@@ -15,8 +17,13 @@ TEST_P(HelpOf, the_verb_is_golden_and_has_an_example) {
 
 INSTANTIATE_TEST_SUITE_P(AllVerbs, HelpOf,
                          ::testing::Values("propagate", "check", "trade", "reproduce", "torque",
-                                           "monitor", "list", "timing", "completion"),
-                         [](const auto& the) { return std::string(the.param); });
+                                           "monitor", "list", "timing", "step", "pause", "resume",
+                                           "reset", "set-state", "set-inertia", "completion"),
+                         [](const auto& the) {
+                           std::string name = the.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(Help, of_the_program_is_golden) {
   const Outcome outcome = client({"--help"});

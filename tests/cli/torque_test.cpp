@@ -63,6 +63,17 @@ TEST(Torque, at_and_until_are_simulation_time) {
   EXPECT_EQ(daemon.heard[0].duration_ns, 0);
 }
 
+TEST(Torque, does_not_wait_for_a_clock_that_stands) {
+  const auto place = own_place(63);
+  FakeDaemon daemon(place);
+  Process client(at_place(pulse(), place));
+  const int code = daemon.serve(client, [](const adstar_TorqueCommand& command) {
+    return Answers{answer_to(command, adstar_VERDICT_ACCEPTED)};
+  });
+  EXPECT_EQ(code, 0) << client.err();
+  EXPECT_EQ(client.out().find("accepted by 'fake' at step 1200 (12 s): waits"), 0U) << client.out();
+}
+
 TEST(Torque, wait_hears_the_final_verdict_too) {
   const auto place = own_place(62);
   FakeDaemon daemon(place);

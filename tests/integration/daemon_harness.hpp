@@ -217,6 +217,8 @@ class GroundStation {
     return c;
   }
 
+  const dds::Participant& participant() const { return participant_; }
+
   std::map<std::uint64_t, std::vector<adstar_CommandStatus>> answers;
   std::map<std::string, adstar_AttitudeState> attitude;
   std::map<std::string, adstar_MomentumState> momentum;

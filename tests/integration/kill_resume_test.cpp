@@ -91,7 +91,7 @@ TEST(KillResume, a_run_killed_at_any_moment_has_the_bits_of_one_that_was_not) {
 
   testing::Process replay({ADSTAR, "replay", run.string()});
   EXPECT_EQ(replay.wait(std::chrono::seconds(120)), 0) << replay.out() << replay.err();
-  EXPECT_TRUE(replay.out().starts_with("steps 0 to ")) << replay.out();
+  EXPECT_TRUE(replay.out().starts_with("step 0 to ")) << replay.out();
   EXPECT_NE(replay.out().find("same bits"), std::string::npos) << replay.out();
   std::printf("%d kills; %s", kills_wanted(), replay.out().c_str());
 }

@@ -53,11 +53,12 @@ inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
 class RecordedFlight {
  public:
   /// Without a record: what it is compared with.
-  explicit RecordedFlight(std::uint64_t seed) : seed_(seed) {}
+  explicit RecordedFlight(std::uint64_t seed) : seed_(seed) { fleet_.keep_start(); }
 
   /// Begins a run there.
   RecordedFlight(std::uint64_t seed, const std::filesystem::path& path, std::uint64_t run)
       : seed_(seed) {
+    fleet_.keep_start();
     directory_.emplace(run::RunDirectory::create(path, {run, "text", "scene.toml", "", ""}));
     hot_.emplace(run::HotJournalFile::create(run));
     start_log(1, 0);
@@ -66,17 +67,18 @@ class RecordedFlight {
   /// Goes on with it. `accept_loss` as in resume().
   RecordedFlight(std::uint64_t seed, const std::filesystem::path& path, bool accept_loss = false)
       : seed_(seed) {
+    fleet_.keep_start();
     directory_.emplace(run::RunDirectory::open(path, run::RunDirectory::Use::fly));
     const std::uint64_t run = directory_->facts().run;
     hot_ = run::HotJournalFile::open(run);
-    run::Flight flight{gate_, &fleet_, scene_.simulation.step_ns, 0};
+    run::Flight flight{gate_, controls_, &fleet_, scene_.simulation.step_ns, {}};
     resumed =
         run::resume(*directory_, hot_ ? &**hot_ : nullptr, scene_, 7, accept_loss, flight, *ring_);
-    step_ = flight.step;
+    at_ = flight.at;
     if (!hot_ || !resumed.records.gap.empty()) {
       hot_.reset();
       hot_.emplace(run::HotJournalFile::create(run));
-      (*hot_)->step.store(step_);
+      (*hot_)->step.store(at_.step);
     }
     start_log(resumed.records.next_number, resumed.records.last_in_files);
   }
@@ -84,11 +86,31 @@ class RecordedFlight {
   /// The commands of the present beat, the first `most` of them.
   void hear(std::size_t most = 1000) {
     std::size_t heard = 0;
-    for (const runtime::CommandRecord& command : commands_of_beat(seed_, step_)) {
+    for (const runtime::CommandRecord& command : commands_of_beat(seed_, at_.step)) {
       if (heard++ < most) {
         gate_.receive(command, now());
       }
     }
+  }
+  /// As Tick does it.
+  void control(const runtime::ControlRecord& record) {
+    if (controls_.repeated(record, runtime::blank_answer(record))) {
+      return;
+    }
+    const runtime::ControlAnswerRecord answer = runtime::apply_control(record, fleet_);
+    const bool reset = record.action == runtime::ControlAction::reset;
+    if (writer_) {
+      if (reset) {
+        writer_->reached(0);
+      }
+      writer_->write(runtime::JournalKind::control, at_.step,
+                     static_cast<std::uint32_t>(answer.refusal), record);
+    }
+    if (reset && answer.refusal == runtime::ControlRefusal::none) {
+      gate_.reset(now());
+      at_ = {at_.resets + 1, 0};
+    }
+    controls_.conclude(answer);
   }
   void compute() {
     gate_.begin_step(now(), fleet_);
@@ -96,9 +118,9 @@ class RecordedFlight {
     ring_->skip_all();
   }
   void conclude() {
-    ++step_;
+    ++at_.step;
     if (writer_) {
-      writer_->reached(step_);
+      writer_->reached(at_.step);
     }
   }
   void beat() {
@@ -107,15 +129,15 @@ class RecordedFlight {
     conclude();
   }
   void run_to(std::uint64_t step) {
-    while (step_ < step) {
+    while (at_.step < step) {
       beat();
     }
   }
 
   void checkpoint(bool keep_all_journals = false) {
     log_->move_records();
-    log_->note_hash(step_, run::state_hash(step_, states()));
-    log_->write_checkpoint(step_, states(), keep_all_journals);
+    log_->note_hash(at_, hash());
+    log_->write_checkpoint(at_, states(), keep_all_journals);
   }
 
   std::vector<runtime::VehicleState> states() const {
@@ -125,21 +147,23 @@ class RecordedFlight {
     }
     return all;
   }
-  std::uint64_t hash() const { return run::state_hash(step_, states()); }
+  std::uint64_t hash() const { return run::state_hash(at_.step, states()); }
   std::vector<std::uint64_t> schedule() const { return gate_.save(); }
-  std::uint64_t step() const { return step_; }
+  std::uint64_t step() const { return at_.step; }
+  const runtime::Instant& at() const { return at_; }
   run::RunLog& log() { return *log_; }
   runtime::HotJournal& hot() { return **hot_; }
   runtime::VerdictRing& verdicts() { return *ring_; }
   runtime::CommandGate& gate() { return gate_; }
   runtime::Beat now() const {
-    return {step_, static_cast<std::int64_t>(step_) * 10 * kMs, 10 * kMs};
+    return {at_.step, static_cast<std::int64_t>(at_.step) * 10 * kMs, 10 * kMs};
   }
   run::Resumed resumed;
 
  private:
   void start_log(std::uint64_t next_number, std::uint64_t last_in_files) {
-    log_ = std::make_unique<run::RunLog>(*directory_, scene_, 7, **hot_, gate_, step_, next_number,
+    const run::Flight flight{gate_, controls_, &fleet_, scene_.simulation.step_ns, at_};
+    log_ = std::make_unique<run::RunLog>(*directory_, scene_, 7, **hot_, flight, next_number,
                                          last_in_files);
     writer_.emplace(**hot_, next_number);
     gate_.record_in(&*writer_);
@@ -150,7 +174,10 @@ class RecordedFlight {
   std::unique_ptr<runtime::VerdictRing> ring_ = std::make_unique<runtime::VerdictRing>();
   runtime::Fleet fleet_{scene_.spacecraft, "coadjoint_rk4", StepLimits{}};
   runtime::CommandGate gate_{scene_.spacecraft, *ring_};
-  std::uint64_t step_ = 0;
+  std::unique_ptr<runtime::ControlAnswerRing> answers_ =
+      std::make_unique<runtime::ControlAnswerRing>();
+  runtime::ControlMemory controls_{*answers_};
+  runtime::Instant at_;
   std::optional<run::RunDirectory> directory_;
   std::optional<run::HotJournalFile> hot_;
   std::optional<runtime::JournalWriter> writer_;

@@ -11,6 +11,7 @@
 
 #include "service/dds/convert.hpp"
 #include "service/dds/rate_limit.hpp"
+#include "service/dds/refusal_text.hpp"
 #include "service/dds/topics.hpp"
 #include "service/dds/verdict_text.hpp"
 
@@ -94,9 +95,9 @@ TEST(DdsConvert, a_verdict_becomes_a_status) {
 TEST(DdsConvert, an_enumerator_of_a_newer_program_is_not_taken_for_one_of_ours) {
   adstar_CommandStatus sample{};
   const std::uint32_t eight = 8;
-  const std::uint32_t ten = 10;
+  const std::uint32_t eleven = 11;
   std::memcpy(&sample.verdict, &eight, sizeof eight);
-  std::memcpy(&sample.reason, &ten, sizeof ten);
+  std::memcpy(&sample.reason, &eleven, sizeof eleven);
   EXPECT_FALSE(verdict_of(sample));
   EXPECT_FALSE(reason_of(sample));
 }
@@ -177,13 +178,68 @@ TEST(VerdictText, has_a_word_for_each_and_a_sentence_for_each_reason) {
   EXPECT_EQ(words.size(), 8U);
   EXPECT_FALSE(words.contains("unknown verdict"));
   std::set<std::string> sentences;
-  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Reason::halted); ++i) {
+  for (std::uint32_t i = 0; i <= static_cast<std::uint32_t>(Reason::not_recorded); ++i) {
     sentences.insert(reason_text(static_cast<Reason>(i)));
     EXPECT_STRNE(reason_name(static_cast<Reason>(i)), "unknown reason");
   }
-  EXPECT_EQ(sentences.size(), 10U);
+  EXPECT_EQ(sentences.size(), 11U);
   EXPECT_FALSE(is_final(Verdict::accepted));
   EXPECT_TRUE(is_final(Verdict::applied));
+}
+
+TEST(RefusalText, has_a_name_and_a_sentence_for_each) {
+  std::set<std::string> names, sentences;
+  const auto last_step = static_cast<std::uint32_t>(runtime::StepRefusal::halted);
+  for (std::uint32_t i = 0; i <= last_step; ++i) {
+    names.insert(std::string("step ") + refusal_name(static_cast<runtime::StepRefusal>(i)));
+    sentences.insert(std::string("step ") + refusal_text(static_cast<runtime::StepRefusal>(i)));
+  }
+  const auto last_control = static_cast<std::uint32_t>(runtime::ControlRefusal::unknown_action);
+  for (std::uint32_t i = 0; i <= last_control; ++i) {
+    names.insert(refusal_name(static_cast<runtime::ControlRefusal>(i)));
+    sentences.insert(refusal_text(static_cast<runtime::ControlRefusal>(i)));
+  }
+  EXPECT_EQ(names.size(), 6U + 8U);
+  EXPECT_EQ(sentences.size(), 6U + 8U);
+  EXPECT_FALSE(names.contains("unknown refusal"));
+  EXPECT_FALSE(names.contains("step unknown refusal"));
+}
+
+TEST(DdsConvert, requests_to_the_clock_keep_every_number) {
+  adstar_StepRequest request{};
+  request.requester = {1, 2};
+  request.sequence_number = 3;
+  request.steps = 4;
+  const runtime::StepRequestRecord asked = to_record(request);
+  EXPECT_EQ(asked.requester, (runtime::CommanderId{1, 2}));
+  EXPECT_EQ(asked.sequence, 3U);
+  EXPECT_EQ(asked.steps, 4U);
+  const adstar_StepReply reply = to_sample(
+      runtime::StepReplyRecord{
+          {1, 2}, 3, runtime::StepOutcome::refused, runtime::StepRefusal::busy, 5, 6},
+      "fly");
+  EXPECT_EQ(text_of(reply.service), "fly");
+  EXPECT_EQ(reply.requester.low, 2U);
+  EXPECT_EQ(outcome_of(reply), runtime::StepOutcome::refused);
+  EXPECT_EQ(refusal_of(reply), runtime::StepRefusal::busy);
+  EXPECT_EQ(reply.step, 5U);
+  EXPECT_EQ(reply.time_ns, 6);
+
+  adstar_RunControl control{};
+  control.commander = {7, 8};
+  control.sequence_number = 9;
+  control.action = adstar_CONTROL_SET_INERTIA;
+  control.attitude_body_to_inertial = {0.1, 0.2, 0.3, 0.4};
+  control.angular_velocity_body_rad_s = {1, 2, 3};
+  control.inertia_body_kg_m2 = {11, 12, 13, 14, 15, 16};
+  const runtime::ControlRecord record = to_record(control, 5);
+  EXPECT_EQ(record.commander, (runtime::CommanderId{7, 8}));
+  EXPECT_EQ(record.sequence, 9U);
+  EXPECT_EQ(record.action, runtime::ControlAction::set_inertia);
+  EXPECT_EQ(record.spacecraft, 5U);
+  EXPECT_EQ(record.q_IB, (std::array<double, 4>{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(record.omega_B_rad_s, (std::array<double, 3>{1, 2, 3}));
+  EXPECT_EQ(record.inertia_body_kg_m2, (std::array<double, 6>{11, 12, 13, 14, 15, 16}));
 }
 
 TEST(RateLimit, drops_the_rest_of_a_second_and_then_says_how_many) {

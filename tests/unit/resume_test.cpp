@@ -161,7 +161,7 @@ TEST_F(KilledRun, uses_an_older_checkpoint_when_the_newest_was_changed_and_says_
   const fs::path newest_checkpoint = newest("checkpoint-");
   flip_a_bit(newest_checkpoint, 200);
   flight.emplace(9, path_);
-  EXPECT_EQ(flight->resumed.checkpoint_step, 100U);
+  EXPECT_EQ(flight->resumed.checkpoint.step, 100U);
   ASSERT_FALSE(flight->resumed.notes.empty());
   EXPECT_NE(flight->resumed.notes[0].find(newest_checkpoint.string() + " was changed"),
             std::string::npos)
@@ -178,7 +178,7 @@ TEST_F(KilledRun, goes_back_to_the_scene_when_no_checkpoint_is_whole) {
   flight.reset();
   fs::resize_file(newest("checkpoint-"), 50);
   flight.emplace(9, path_);
-  EXPECT_EQ(flight->resumed.checkpoint_step, 0U);
+  EXPECT_EQ(flight->resumed.checkpoint.step, 0U);
   expect_same(*flight, 9, 120);
 }
 
@@ -295,7 +295,67 @@ TEST_F(KilledRun, a_full_disk_loses_nothing_and_what_finds_no_place_is_refused) 
   const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
   const RunRecords records = read_records(directory, nullptr, 1);
   EXPECT_TRUE(records.damage.empty());
-  EXPECT_EQ(records.commands.size(), runtime::HotJournal::Ring::kCapacity);
+  EXPECT_EQ(records.heard.size(), runtime::HotJournal::Ring::kCapacity);
+}
+
+runtime::ControlRecord control(std::uint64_t sequence, runtime::ControlAction action) {
+  runtime::ControlRecord record;
+  record.commander = {3, 4};
+  record.sequence = sequence;
+  record.action = action;
+  record.spacecraft = 1;
+  record.q_IB = {1, 2, 3, 4};
+  record.omega_B_rad_s = {0.1, -0.2, 0.3};
+  record.inertia_body_kg_m2 = {1.1, 1.2, 1.3, 0.01, 0, 0};
+  return record;
+}
+
+/// Another inertia at 130, a reset at 170, another state at 40 after it.
+void fly_with_controls(RecordedFlight& flight, std::uint64_t until_after_reset) {
+  if (flight.at() < runtime::Instant{0, 130}) {
+    flight.run_to(130);
+  }
+  if (flight.at().resets == 0) {
+    flight.control(control(1, runtime::ControlAction::set_inertia));
+    flight.run_to(170);
+    flight.control(control(2, runtime::ControlAction::reset));
+  }
+  flight.run_to(std::min<std::uint64_t>(40, until_after_reset));
+  if (until_after_reset > 40) {
+    flight.control(control(3, runtime::ControlAction::set_state));
+    flight.run_to(until_after_reset);
+  }
+}
+
+TEST_F(KilledRun, goes_on_over_changed_inertia_resets_and_set_states) {
+  for (const bool keep_all : {false, true}) {
+    for (const std::uint64_t killed_after : {0U, 1U, 40U, 41U, 90U}) {
+      std::error_code ignored;
+      fs::remove_all(path_, ignored);
+      std::optional<RecordedFlight> flight(std::in_place, 5, path_, run_);
+      flight->run_to(100);
+      flight->checkpoint(keep_all);
+      fly_with_controls(*flight, killed_after);
+      if (killed_after == 90) {
+        flight->checkpoint(keep_all);
+      }
+      flight.reset();
+      flight.emplace(5, path_);
+      ASSERT_EQ(flight->at(), (runtime::Instant{1, killed_after}));
+      fly_with_controls(*flight, 120);
+      RecordedFlight never_killed(5);
+      fly_with_controls(never_killed, 120);
+      EXPECT_EQ(flight->hash(), never_killed.hash()) << killed_after;
+      EXPECT_EQ(flight->schedule(), never_killed.schedule()) << killed_after;
+      flight->checkpoint(keep_all);
+      flight.reset();
+      const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+      const Reflight again =
+          refly(directory, test::recorded_scene(), 7, [](double) { return true; });
+      EXPECT_FALSE(again.differs_at) << again.differs_at->step << " " << again.differs_in;
+      EXPECT_EQ(again.to, (runtime::Instant{1, 120}));
+    }
+  }
 }
 
 TEST_F(KilledRun, flown_again_gives_the_same_bits) {
@@ -308,11 +368,11 @@ TEST_F(KilledRun, flown_again_gives_the_same_bits) {
   }
   const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
   const Reflight again = refly(directory, test::recorded_scene(), 7, [](double) { return true; });
-  EXPECT_EQ(again.from_step, 0U);
-  EXPECT_EQ(again.to_step, 400U);
+  EXPECT_EQ(again.from.step, 0U);
+  EXPECT_EQ(again.to.step, 400U);
   EXPECT_EQ(again.hashes, 8U);
   EXPECT_EQ(again.checkpoints, 3U);
-  EXPECT_FALSE(again.differs_at) << *again.differs_at << again.differs_in;
+  EXPECT_FALSE(again.differs_at) << again.differs_at->step << again.differs_in;
 }
 
 TEST_F(KilledRun, flown_again_from_the_oldest_checkpoint_when_the_beginning_was_dropped) {
@@ -325,8 +385,8 @@ TEST_F(KilledRun, flown_again_from_the_oldest_checkpoint_when_the_beginning_was_
   }
   const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
   const Reflight again = refly(directory, test::recorded_scene(), 7, [](double) { return true; });
-  EXPECT_EQ(again.from_step, 300U);
-  EXPECT_EQ(again.to_step, 400U);
+  EXPECT_EQ(again.from.step, 300U);
+  EXPECT_EQ(again.to.step, 400U);
   EXPECT_FALSE(again.differs_at);
 }
 
@@ -344,7 +404,7 @@ TEST_F(KilledRun, flown_again_with_another_body_says_where_it_parts) {
   const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
   const Reflight again = refly(directory, other, 7, [](double) { return true; });
   ASSERT_TRUE(again.differs_at);
-  EXPECT_EQ(*again.differs_at, 50U);
+  EXPECT_EQ(again.differs_at->step, 50U);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace adstar::run {
 namespace {
 
 Checkpoint some_checkpoint() {
-  Checkpoint checkpoint{1, 2, 3, 4, 5, {}, {10, 11, 12}};
+  Checkpoint checkpoint{1, 2, {0, 3}, 4, 5, {}, {10, 11, 12}, {13, 14}};
   checkpoint.vehicles.resize(2);
   checkpoint.vehicles[1].E_0 = 0.5;
   checkpoint.vehicles[0].state.H_I.add({1, 2, 3});
@@ -23,9 +23,10 @@ TEST(Checkpoint, comes_back_from_its_bytes) {
   const Checkpoint before = some_checkpoint();
   const Checkpoint after = checkpoint_from(to_bytes(before));
   EXPECT_EQ(to_bytes(after), to_bytes(before));
-  EXPECT_EQ(after.step, 3U);
+  EXPECT_EQ(after.at, (runtime::Instant{0, 3}));
   EXPECT_EQ(after.first_journal, 5U);
   EXPECT_EQ(after.gate, before.gate);
+  EXPECT_EQ(after.controls, before.controls);
   EXPECT_EQ(state_hash(3, after.vehicles), state_hash(3, before.vehicles));
 }
 
@@ -66,7 +67,7 @@ class JournalInBytes : public testing::Test {
     std::vector<runtime::JournalRecord> records;
     for (std::uint64_t n = 1; n <= 5; ++n) {
       records.push_back(
-          runtime::make_journal_record(runtime::JournalKind::command, n, 10 * n, n * n));
+          runtime::make_journal_record(runtime::JournalKind::command, n, 10 * n, 0, n * n));
     }
     file.append(std::span(records).first(2));
     file.append(std::span(records).subspan(2));

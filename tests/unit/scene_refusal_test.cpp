@@ -141,12 +141,13 @@ TEST(SceneLoader, refuses_unknown_schemes_and_paces) {
       "scene.toml:3:10: simulation.scheme: got \"rk4\", expected one of coadjoint_rk4, "))
       << unknown;
   EXPECT_TRUE(unknown.ends_with("; try \"coadjoint_rk4\"")) << unknown;
+  EXPECT_EQ(refusal(in_simulation("pace = \"fre\"")),
+            "scene.toml:3:8: simulation.pace: got \"fre\", expected one of clock, free, lockstep; "
+            "try \"free\"");
   EXPECT_EQ(
-      refusal(in_simulation("pace = \"fre\"")),
-      "scene.toml:3:8: simulation.pace: got \"fre\", expected one of clock, free; try \"free\"");
-  EXPECT_EQ(refusal(in_simulation("pace = \"lockstep\"")),
-            "scene.toml:3:8: simulation.pace: got \"lockstep\", expected one of clock, free "
-            "(lockstep is not available yet); try \"free\"");
+      refusal(in_simulation("lockstep_timeout = \"1s\"")),
+      "scene.toml:3:20: simulation.lockstep_timeout: got \"1s\", expected no lockstep_timeout "
+      "beside pace = \"clock\"; try removing it, or pace = \"lockstep\"");
 }
 
 TEST(SceneLoader, refuses_a_rate_that_is_none_or_has_no_clock) {

@@ -122,6 +122,13 @@ TEST(SceneLoader, reads_every_key_of_the_simulation) {
   EXPECT_EQ(scene.simulation.limits.substeps, 100'000);
   EXPECT_EQ(scene.simulation.limits.edges, 1);
   EXPECT_EQ(parse(in_simulation("pace = \"free\""), "").simulation.pace, Pace::free);
+  const Scene held = parse(in_simulation("pace = \"lockstep\""), "");
+  EXPECT_EQ(held.simulation.pace, Pace::lockstep);
+  EXPECT_EQ(held.simulation.lockstep_timeout_ns, 10'000'000'000);
+  EXPECT_FALSE(held.service.run_control) << "off unless the scene allows it";
+  EXPECT_EQ(parse(in_simulation("pace = \"lockstep\"\nlockstep_timeout = \"off\""), "")
+                .simulation.lockstep_timeout_ns,
+            std::nullopt);
   EXPECT_EQ(parse(in_simulation("duration = \"endless\""), "").simulation.duration_ns,
             std::nullopt);
 }
@@ -144,14 +151,15 @@ TEST(SceneLoader, reads_epochs_in_both_scales) {
 }
 
 TEST(SceneLoader, reads_service_dds_log_and_telemetry) {
-  const Scene scene = parse(std::string(kSimulation) + kSpacecraft +
-                                "[[spacecraft]]\nname = \"sat2\"\ninertia_body_kg_m2 = [1, 1, 1]\n"
-                                "[telemetry]\nattitude_hz = 33.3333333333\nmomentum_hz = 0\n"
-                                "fleet_hz = 0.5\nspacecraft = [\"sat2\"]\n"
-                                "[service]\nname = \"lab\"\npriority = 0\ncpu = 0\n"
-                                "[dds]\ndomain = 230\npartition = \"a\"\ninterface = \"eth0\"\n"
-                                "[log]\nlevel = \"warn\"\nfile = \"adstar.log\"\n",
-                            "scene.toml");
+  const Scene scene =
+      parse(std::string(kSimulation) + kSpacecraft +
+                "[[spacecraft]]\nname = \"sat2\"\ninertia_body_kg_m2 = [1, 1, 1]\n"
+                "[telemetry]\nattitude_hz = 33.3333333333\nmomentum_hz = 0\n"
+                "fleet_hz = 0.5\nspacecraft = [\"sat2\"]\n"
+                "[service]\nname = \"lab\"\npriority = 0\ncpu = 0\nrun_control = true\n"
+                "[dds]\ndomain = 230\npartition = \"a\"\ninterface = \"eth0\"\n"
+                "[log]\nlevel = \"warn\"\nfile = \"adstar.log\"\n",
+            "scene.toml");
   EXPECT_EQ(scene.telemetry.attitude_every, 3U);
   EXPECT_EQ(scene.telemetry.momentum_every, 0U);
   EXPECT_EQ(scene.telemetry.fleet_every, 200U);
@@ -159,6 +167,7 @@ TEST(SceneLoader, reads_service_dds_log_and_telemetry) {
   EXPECT_EQ(scene.service.name, "lab");
   EXPECT_EQ(scene.service.priority, 0);
   EXPECT_EQ(scene.service.cpu, 0);
+  EXPECT_TRUE(scene.service.run_control);
   EXPECT_EQ(scene.dds.domain, 230U);
   EXPECT_EQ(scene.dds.partition, "a");
   EXPECT_EQ(scene.dds.interface, "eth0");

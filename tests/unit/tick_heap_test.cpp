@@ -51,5 +51,34 @@ TEST(TickHeap, is_not_touched_under_the_clock) {
   EXPECT_EQ(allocation_count() - before, 0U);
 }
 
+TEST(TickHeap, is_not_touched_by_those_who_hold_the_clock) {
+  scene::Scene scene = test::tick_scene(500);
+  scene.simulation.pace = scene::Pace::lockstep;
+  scene.service.run_control = true;
+  MappedSegment segment = MappedSegment::create(2);
+  Tick tick(scene, segment);
+  std::uint64_t sequence = 0;
+  for (const ControlAction action : {ControlAction::set_state, ControlAction::set_inertia,
+                                     ControlAction::reset, ControlAction::pause}) {
+    ControlRecord record;
+    record.sequence = ++sequence;
+    record.action = action;
+    record.q_IB = {1, 0, 0, 0.5};
+    record.omega_B_rad_s = {0.1, 0.2, 0.3};
+    record.inertia_body_kg_m2 = {1.5, 2.0, 1.25, 0.1, -0.05, 0.2};
+    ASSERT_TRUE(segment->controls.push(record));
+  }
+  ASSERT_TRUE(segment->step_requests.push({{}, 1, 500, 0}));
+  const std::atomic<bool> stop{false};
+  const std::uint64_t before = allocation_count();
+  tick.run(stop);
+  EXPECT_EQ(allocation_count() - before, 0U);
+  EXPECT_EQ(tick.report().step.load(), 500U);
+  EXPECT_EQ(tick.report().run.load(), 1U);
+  while (const auto answer = segment->control_answers.pop()) {
+    EXPECT_EQ(answer->refusal, ControlRefusal::none) << static_cast<int>(answer->action);
+  }
+}
+
 }  // namespace
 }  // namespace adstar::runtime

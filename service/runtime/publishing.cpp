@@ -1,0 +1,107 @@
+// What the tick says of each step.
+
+#include <cmath>
+#include <cstring>
+
+#include "service/runtime/tick.hpp"
+#include "service/runtime/tick_parts.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+bool due_at(std::uint64_t step, std::uint64_t every, bool everything) noexcept {
+  return every != 0 && (everything || step % every == 0);
+}
+
+/// The larger; what is no number is the worst of all.
+double worse(double a, double b) noexcept { return a >= b || std::isnan(a) ? a : b; }
+
+}  // namespace
+
+std::uint32_t Tick::topics_at(std::uint64_t step, bool everything) const noexcept {
+  return (due_at(step, telemetry_.attitude_every, everything) ? kTopicAttitude : 0U) |
+         (due_at(step, telemetry_.momentum_every, everything) ? kTopicMomentum : 0U);
+}
+
+void Tick::publish(std::uint64_t step, bool everything) noexcept {
+  const std::uint32_t topics = topics_at(step, everything);
+  const bool fleet = due_at(step, telemetry_.fleet_every, everything);
+  if (topics != 0) {
+    double worst = 0;
+    for (const std::uint32_t spacecraft : telemetry_.watched) {
+      if (!push_sample(spacecraft, topics, 0, step)) {
+        add(report_.telemetry_lost, 1);
+      }
+      worst = worse(worst, momentum_residual_relative(fleet_.vehicles()[spacecraft]));
+    }
+    if (telemetry_.fleet_every == 0) {
+      report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
+    }
+  }
+  if (fleet) {
+    write_fleet(step, 0);
+  }
+  const std::size_t verdicts = segment_->verdicts.size();
+  raise(report_.most_verdicts, verdicts);
+  raise(report_.most_telemetry, segment_->telemetry.size());
+  if (topics != 0 || fleet || verdicts > 0 || answers_wait()) {
+    wake_bridge(*segment_);
+  }
+}
+
+bool Tick::push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
+                       std::uint64_t step) noexcept {
+  const Vehicle& vehicle = fleet_.vehicles()[spacecraft];
+  TelemetryRecord record = sample(vehicle);
+  record.spacecraft = spacecraft;
+  record.topics = topics;
+  record.flags |= flags;
+  record.step = step;
+  record.time_ns = static_cast<std::int64_t>(step) * step_ns_;
+  return segment_->telemetry.push(record);
+}
+
+void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
+  const FleetHeader header{step, static_cast<std::int64_t>(step) * step_ns_,
+                           fleet_.vehicles().size()};
+  std::uint64_t* word = fleet_words_.data();
+  std::memcpy(word, &header, sizeof header);
+  word += sizeof header / sizeof *word;
+  double worst = 0;
+  for (const Vehicle& vehicle : fleet_.vehicles()) {
+    const TelemetryRecord full = sample(vehicle);
+    const FleetRecord member{full.q_IB,
+                             full.omega_B_rad_s,
+                             full.H_I_n_m_s,
+                             full.rotational_energy_j,
+                             full.energy_residual_j,
+                             full.flags | flags};
+    std::memcpy(word, &member, sizeof member);
+    word += sizeof member / sizeof *word;
+    worst = worse(worst, momentum_residual_relative(vehicle));
+  }
+  report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
+  segment_->fleet.write(segment_.fleet_storage(), fleet_words_);
+}
+
+void Tick::publish_final(int patience_ms) {
+  const std::uint64_t step = report_.step.load(std::memory_order_relaxed);
+  const std::int64_t patience_ends = monotonic_ns() + patience_ms * (kSecond / 1000);
+  const std::uint32_t topics = topics_at(step, true);
+  for (const std::uint32_t spacecraft : telemetry_.watched) {
+    while (topics != 0 && !push_sample(spacecraft, topics, kFlagFinal, step)) {
+      if (monotonic_ns() > patience_ends) {
+        add(report_.telemetry_lost, 1);
+        break;
+      }
+      wake_bridge(*segment_);
+      sleep_until(monotonic_ns() + kSecond / 1000);
+    }
+  }
+  if (telemetry_.fleet_every != 0) {
+    write_fleet(step, kFlagFinal);
+  }
+  wake_bridge(*segment_);
+}
+
+}  // namespace adstar::runtime

@@ -1,0 +1,119 @@
+#include "service/runtime/run_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adstar/integrators/guard.hpp"
+#include "service/scene/inertia.hpp"
+
+namespace adstar::runtime {
+namespace {
+
+template <std::size_t N>
+bool all_finite(const std::array<double, N>& numbers) noexcept {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// The scene's own condition for a motion: its energy and momentum are finite.
+bool can_turn(const RigidBody<double>& body, const Quat<double>& q_IB,
+              const Vec3<double>& H_I) noexcept {
+  return std::isfinite(
+      angular_speed_bound_squared(body, body_momentum(make_state(q_IB, H_I)), 0.0));
+}
+
+ControlRefusal set_state(const ControlRecord& record, Fleet& fleet) noexcept {
+  const Quat<double> q_IB{record.q_IB[0], record.q_IB[1], record.q_IB[2], record.q_IB[3]};
+  if (!all_finite(record.q_IB) || !all_finite(record.omega_B_rad_s) ||
+      q_IB == Quat<double>{0.0, 0.0, 0.0, 0.0}) {
+    return ControlRefusal::bad_state;
+  }
+  const RigidBody<double>& body = fleet.vehicles()[record.spacecraft].body;
+  const auto& omega = record.omega_B_rad_s;
+  const Vec3<double> H_I =
+      rotate(normalised(q_IB), body.momentum(Vec3<double>{omega[0], omega[1], omega[2]}));
+  if (!can_turn(body, q_IB, H_I)) {
+    return ControlRefusal::bad_state;
+  }
+  fleet.set_state(record.spacecraft, q_IB, H_I);
+  return ControlRefusal::none;
+}
+
+ControlRefusal set_inertia(const ControlRecord& record, Fleet& fleet) noexcept {
+  const auto& j = record.inertia_body_kg_m2;
+  if (!all_finite(j) ||
+      scene::fault_of_inertia({j[0], j[1], j[2], j[3], j[4], j[5]}) != scene::InertiaFault::none) {
+    return ControlRefusal::bad_inertia;
+  }
+  Eigen::Matrix3d J;
+  J << j[0], j[3], j[4], j[3], j[1], j[5], j[4], j[5], j[2];
+  const RigidBody<double> body(J);
+  const State<double>& state = fleet.vehicles()[record.spacecraft].state;
+  if (!can_turn(body, state.q_IB, state.H_I.value())) {
+    return ControlRefusal::bad_inertia;
+  }
+  fleet.set_body(record.spacecraft, body);
+  return ControlRefusal::none;
+}
+
+ControlRefusal act(const ControlRecord& record, Fleet& fleet) noexcept {
+  switch (record.action) {
+    case ControlAction::pause:
+    case ControlAction::resume:
+      return ControlRefusal::none;
+    case ControlAction::reset:
+      return fleet.reset() ? ControlRefusal::none : ControlRefusal::not_allowed;
+    case ControlAction::set_state:
+    case ControlAction::set_inertia:
+      if (record.spacecraft >= fleet.vehicles().size()) {
+        return ControlRefusal::unknown_spacecraft;
+      }
+      return record.action == ControlAction::set_state ? set_state(record, fleet)
+                                                       : set_inertia(record, fleet);
+  }
+  return ControlRefusal::unknown_action;
+}
+
+}  // namespace
+
+ControlAnswerRecord blank_answer(const ControlRecord& record) noexcept {
+  ControlAnswerRecord answer;
+  answer.commander = record.commander;
+  answer.sequence = record.sequence;
+  answer.action = record.action;
+  answer.spacecraft = record.spacecraft;
+  return answer;
+}
+
+ControlAnswerRecord apply_control(const ControlRecord& record, Fleet& fleet) noexcept {
+  ControlAnswerRecord answer = blank_answer(record);
+  answer.refusal = act(record, fleet);
+  return answer;
+}
+
+bool ControlMemory::repeated(const ControlRecord& record,
+                             const ControlAnswerRecord& blank) noexcept {
+  auto& asker = memory_.find(record.commander);
+  if (record.sequence > asker.last_sequence) {
+    asker.last_sequence = record.sequence;
+    return false;
+  }
+  const ControlAnswerRecord* const known = asker.recall(record.sequence);
+  ControlAnswerRecord answer = blank;
+  answer.refusal = ControlRefusal::old_sequence;
+  answers_.push(known != nullptr ? *known : answer);
+  return true;
+}
+
+void ControlMemory::hear_again(const ControlAnswerRecord& answer) noexcept {
+  auto& asker = memory_.find(answer.commander);
+  asker.last_sequence = std::max(asker.last_sequence, answer.sequence);
+  asker.remember(answer);
+}
+
+// An answer that finds the ring full is lost; the commander repeats and gets it.
+void ControlMemory::conclude(const ControlAnswerRecord& answer) noexcept {
+  memory_.find(answer.commander).remember(answer);
+  answers_.push(answer);
+}
+
+}  // namespace adstar::runtime

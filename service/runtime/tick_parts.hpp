@@ -1,0 +1,42 @@
+#pragma once
+// What the files of the tick share: its clock, and counters with one writer.
+
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
+#include <time.h>
+
+namespace adstar::runtime {
+
+inline constexpr std::int64_t kSecond = 1'000'000'000;
+
+inline std::int64_t monotonic_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * kSecond + now.tv_nsec;
+}
+
+inline void sleep_until(std::int64_t due) noexcept {
+  const timespec deadline{due / kSecond, due % kSecond};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {}
+}
+
+/// What lay in a ring while this process stood still is nobody's wish any more; who means it repeats it.
+/// `received_ns` 0: not stamped.
+inline bool is_stale(std::int64_t received_ns, std::int64_t now_ns) noexcept {
+  return received_ns != 0 && now_ns - received_ns > 2 * kSecond;
+}
+
+/// One writer: a load and a store, no locked instruction.
+inline void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
+  counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
+}
+
+/// A high-water mark.
+inline void raise(std::atomic<std::uint64_t>& mark, std::uint64_t level) noexcept {
+  if (level > mark.load(std::memory_order_relaxed)) {
+    mark.store(level, std::memory_order_relaxed);
+  }
+}
+
+}  // namespace adstar::runtime
