@@ -12,6 +12,7 @@ class NoStep final : public Stepper {
                    const StepLimits& /*limits*/) noexcept override {
     return 0;
   }
+  void replace_body(std::size_t /*vehicle*/, const RigidBody<double>& /*body*/) noexcept override {}
 };
 
 }  // namespace
