@@ -57,7 +57,7 @@ void set_property(dds_qos_t* qos, std::string_view name, const std::string& valu
 void require_usable(const scene::SecurityFiles& files) {
   std::string text;
   for (const std::string& complaint : scene::complaints_about(files)) {
-    text += (text.empty() ? "" : "\n") + ("DDS Security: " + complaint);
+    text += fmt::format("{}DDS Security: {}", text.empty() ? "" : "\n", complaint);
   }
   if (!text.empty()) {
     throw ConfigurationError(text);

@@ -83,9 +83,9 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
   c.gate.resize(header->gate_words);
   c.controls.resize(header->control_words);
   const auto fill = [&bytes](auto& records) {
-    const std::size_t length = records.size() * sizeof records[0];
-    std::memcpy(static_cast<void*>(records.data()), bytes.data(), length);
-    bytes = bytes.subspan(length);
+    const auto room = std::as_writable_bytes(std::span(records));
+    std::copy_n(bytes.begin(), room.size(), room.begin());
+    bytes = bytes.subspan(room.size());
   };
   fill(c.vehicles);
   fill(c.gate);
