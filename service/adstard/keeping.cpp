@@ -63,6 +63,9 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
     }
     log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, flight, next_number_,
                                         last_in_files_);
+    if (loses_) {
+      log->write_checkpoint(flight.at, runtime::states_of(tick.fleet()), scene.run.whole_history);
+    }
     writer_.emplace(**hot_, next_number_);
     writer_->reached(flight.at.step);
     tick.record_in(&*writer_);
@@ -83,6 +86,7 @@ void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprin
   }
   if (!resumed.records.gap.empty()) {
     hot_.reset();  // it may hold what comes after the gap
+    loses_ = true;
   }
   next_number_ = resumed.records.next_number;
   last_in_files_ = resumed.records.last_in_files;

@@ -44,6 +44,7 @@ class Keeping {
 
   std::uint64_t run_ = 0;
   std::uint64_t next_number_ = 1, last_in_files_ = 0;
+  bool loses_ = false;  ///< records are missing between, and that was accepted
   std::optional<run::HotJournalFile> hot_;
   std::optional<runtime::JournalWriter> writer_;
   std::unique_ptr<Recorder> recorder_;

@@ -101,10 +101,7 @@ void Recorder::take_snapshot() {
 
 bool Recorder::finish(const runtime::Fleet& fleet, const runtime::Instant& at) {
   stop_thread();
-  std::vector<runtime::VehicleState> vehicles;
-  for (const runtime::Vehicle& vehicle : fleet.vehicles()) {
-    vehicles.push_back(runtime::state_of(vehicle));
-  }
+  const std::vector<runtime::VehicleState> vehicles = runtime::states_of(fleet);
   const std::uint64_t hash = run::state_hash(at.step, vehicles);
   newest_ = {hash, at.step};
   if (log_ == nullptr) {

@@ -22,14 +22,6 @@ bool same_bits(const VehicleState& a, const VehicleState& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-std::vector<VehicleState> states_of(const runtime::Fleet& fleet) {
-  std::vector<VehicleState> states;
-  for (const runtime::Vehicle& vehicle : fleet.vehicles()) {
-    states.push_back(runtime::state_of(vehicle));
-  }
-  return states;
-}
-
 std::map<Instant, Checkpoint> whole_checkpoints(const RunDirectory& directory,
                                                 const scene::Scene& scene,
                                                 std::uint64_t fingerprint,
@@ -117,7 +109,7 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
     if (flight.at != stop) {
       break;  // beyond a gap
     }
-    const std::vector<VehicleState> states = states_of(fleet);
+    const std::vector<VehicleState> states = runtime::states_of(fleet);
     if (const auto hash = hashes.find(stop); hash != hashes.end()) {
       ++result.hashes;
       if (hash->second != state_hash(stop.step, states)) {

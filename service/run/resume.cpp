@@ -14,25 +14,25 @@ namespace {
 using runtime::JournalKind;
 using runtime::JournalRecord;
 
-/// Into its place; false when one before it is missing.
-bool add(RunRecords& all, const JournalRecord& record) {
+/// Into its place, or, when one before it is missing, nowhere.
+void add(RunRecords& all, const JournalRecord& record) {
   if (record.kind == JournalKind::state_hash) {
     all.hashes.push_back(record);
-    return true;
+    return;
   }
+  all.highest = std::max(all.highest, record.number);
   if (record.number < all.next_number) {
-    return true;  // in two places: moved to the file, not yet let go of
+    return;  // in two places: moved to the file, not yet let go of
   }
-  if (record.number > all.next_number) {
+  if (record.number > all.next_number || !all.gap.empty()) {
     if (all.gap.empty()) {
       all.gap = fmt::format("records {} to {} of the journal are missing", all.next_number,
                             record.number - 1);
     }
-    return false;
+    return;
   }
   all.heard.push_back(record);
   ++all.next_number;
-  return true;
 }
 
 /// The verdicts that are young enough to be said again.
@@ -94,13 +94,13 @@ RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal
       if (record.kind != JournalKind::state_hash) {
         all.last_in_files = std::max(all.last_in_files, record.number);
       }
-      if (!add(all, record)) {
-        break;
-      }
+      add(all, record);
     }
   }
   if (hot != nullptr) {
-    for (std::size_t i = 0; i < hot->ring.size() && add(all, hot->ring.peek(i)); ++i) {}
+    for (std::size_t i = 0; i < hot->ring.size(); ++i) {
+      add(all, hot->ring.peek(i));
+    }
   }
   return all;
 }
@@ -177,6 +177,9 @@ Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
           what, records.heard.empty() ? flight.at.step : records.heard.back().step));
     }
     resumed.notes.push_back(what + "; the run goes on without them");
+    // What is written from now on must not be taken for what is missing.
+    resumed.records.next_number = resumed.records.highest + 1;
+    resumed.records.last_in_files = resumed.records.highest;
   }
   if (hot == nullptr) {
     resumed.notes.push_back(

@@ -19,6 +19,7 @@ struct RunRecords {
   std::vector<runtime::JournalRecord> heard;  ///< commands and controls, none missing between
   std::vector<runtime::JournalRecord> hashes;
   std::uint64_t next_number = 1;    ///< of the record that would come next
+  std::uint64_t highest = 0;        ///< of all numbers, those after a gap too
   std::uint64_t last_in_files = 0;  ///< number of the last that needs no memory to survive
   std::vector<std::string> damage;  ///< a sentence for each file that is not whole
   std::string gap;                  ///< what is missing before later records; empty: nothing
@@ -45,7 +46,7 @@ struct Resumed {
 
 /// Brings a new flight of `scene` to where the run was. The verdicts of its last two seconds are left in
 /// `verdicts`, to be said again. Throws RunError when the run cannot go on with the bits it had, unless
-/// `accept_loss`: then it goes on from where they end.
+/// `accept_loss`: then it goes on from where they end, and a checkpoint there is to be written at once.
 Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
                const scene::Scene& scene, std::uint64_t fingerprint, bool accept_loss,
                Flight& flight, runtime::VerdictRing& verdicts);

@@ -33,6 +33,14 @@ inline bool same(const Sym3<double>& a, const Sym3<double>& b) noexcept {
          a.yz == b.yz;
 }
 
+inline std::vector<VehicleState> states_of(const Fleet& fleet) {
+  std::vector<VehicleState> states;
+  for (const Vehicle& vehicle : fleet.vehicles()) {
+    states.push_back(state_of(vehicle));
+  }
+  return states;
+}
+
 /// May throw nothing but is not for the tick: a body that was changed is prepared anew.
 inline void restore(Fleet& fleet, std::size_t index, const VehicleState& saved) {
   Vehicle& vehicle = fleet.vehicles()[index];

@@ -81,6 +81,9 @@ class RecordedFlight {
       (*hot_)->step.store(at_.step);
     }
     start_log(resumed.records.next_number, resumed.records.last_in_files);
+    if (!resumed.records.gap.empty()) {
+      log_->write_checkpoint(at_, states(), false);
+    }
   }
 
   /// The commands of the present beat, the first `most` of them.
@@ -140,13 +143,7 @@ class RecordedFlight {
     log_->write_checkpoint(at_, states(), keep_all_journals);
   }
 
-  std::vector<runtime::VehicleState> states() const {
-    std::vector<runtime::VehicleState> all;
-    for (const runtime::Vehicle& vehicle : fleet_.vehicles()) {
-      all.push_back(runtime::state_of(vehicle));
-    }
-    return all;
-  }
+  std::vector<runtime::VehicleState> states() const { return runtime::states_of(fleet_); }
   std::uint64_t hash() const { return run::state_hash(at_.step, states()); }
   std::vector<std::uint64_t> schedule() const { return gate_.save(); }
   std::uint64_t step() const { return at_.step; }

@@ -220,6 +220,14 @@ TEST_F(KilledRun, refuses_to_go_on_across_a_hole_in_the_journal_unless_told_to) 
   flight.emplace(2, path_, true);
   EXPECT_LT(flight->step(), 60U);
   EXPECT_GT(flight->step(), 0U);
+  // From there on it is a run like any other, though the old records still lie about.
+  flight->run_to(200);
+  flight->log().move_records();
+  const std::uint64_t hash = flight->hash();
+  flight.reset();
+  flight.emplace(2, path_);
+  EXPECT_EQ(flight->step(), 200U);
+  EXPECT_EQ(flight->hash(), hash);
 }
 
 TEST_F(KilledRun, a_torn_end_of_the_journal_is_no_loss_while_the_memory_has_it) {
