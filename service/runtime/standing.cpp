@@ -99,7 +99,7 @@ ControlRefusal Tick::objection(ControlAction action) const noexcept {
   if (!obeys_run_control_) {
     return ControlRefusal::not_allowed;
   }
-  if (journal_ != nullptr && !journal_->has_room()) {
+  if (journal_ != nullptr && changes_the_fleet(action) && !journal_->has_room()) {
     return ControlRefusal::not_recorded;
   }
   const bool nothing_to_resume = action == ControlAction::resume && pace_ == scene::Pace::lockstep;

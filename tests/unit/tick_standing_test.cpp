@@ -352,6 +352,18 @@ TEST(RunControl, is_written_down_with_its_step_and_outcome_where_it_changes_the_
   EXPECT_EQ(recorded->step, 3U) << "the step that it begins with";
 }
 
+TEST(RunControl, still_pauses_when_the_journal_is_full_and_changes_nothing_that_it_cannot_hold) {
+  const auto hot = std::make_unique<HotJournal>();
+  JournalWriter journal(*hot, 1);
+  while (journal.has_room()) {
+    journal.write(JournalKind::command, 0, 0, CommandRecord{});
+  }
+  Running the(lockstep(), &journal);
+  EXPECT_EQ(the.control(ControlAction::pause).refusal, ControlRefusal::none);
+  EXPECT_EQ(the.control(ControlAction::reset).refusal, ControlRefusal::not_recorded);
+  EXPECT_EQ(the.control(ControlAction::set_state).refusal, ControlRefusal::not_recorded);
+}
+
 TEST(RunControl, refuses_everything_once_the_clock_is_halted) {
   scene::Scene scene = free_running();
   scene.simulation.pace = scene::Pace::clock;
