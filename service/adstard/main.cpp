@@ -149,6 +149,7 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   if (const int code = await_bridge(bridge, *segment, signals); code != kDone) {
     segment->stop_requested.store(1);
     bridge.finish(kBridgePatienceMs);
+    keeping.finish(tick);  // it can be gone on with from here
     return code;
   }
   log_start(scene);
