@@ -13,6 +13,7 @@
 
 #include "adstar/integrators/all.hpp"
 #include "adstar/integrators/guard.hpp"
+#include "adstar/segment.hpp"
 #include "adstar/state.hpp"
 #include "adstar/torques/all.hpp"
 
@@ -35,95 +36,6 @@ struct StepReport {
 
 namespace detail {
 
-/// All torques of one spacecraft over one smooth segment.
-template <class T>
-struct Segment {
-  Ramp<T> body, inertial;         ///< the models that are linear in time, summed
-  bool varying = false;           ///< some model is to be asked at every stage
-  bool varying_inertial = false;  ///< and one of those in I
-  T varying_bound{};              ///< of the norm of those [N m]
-  bool damped = false;            ///< some model looks at omega_B
-  Vec3<T> damping;                ///< -∂tau_B/∂omega_B per body axis, summed [N m s/rad]
-};
-
-template <class T>
-bool is_zero(const Vec3<T>& v) {
-  return v == Vec3<T>{};
-}
-
-template <class T>
-void add_to(Ramp<T>& sum, const Ramp<T>& term) {
-  sum.start = sum.start + term.start;
-  sum.slope = sum.slope + term.slope;
-}
-
-template <class T>
-Segment<T> make_segment(std::span<const Torque<T>> torques, std::int64_t t_ns) {
-  Segment<T> segment;
-  for (const Torque<T>& torque : torques) {
-    std::visit(
-        [&](const auto& model) {
-          if constexpr (requires { model.ramp_from(t_ns); }) {
-            add_to(model.frame == Frame::body ? segment.body : segment.inertial,
-                   model.ramp_from(t_ns));
-          } else if constexpr (requires { model.damping(); }) {
-            segment.damping = segment.damping + model.damping();
-            segment.damped = segment.damped || !is_zero(model.damping());
-          } else {
-            segment.varying = true;
-            segment.varying_inertial = segment.varying_inertial || model.frame == Frame::inertial;
-            segment.varying_bound = segment.varying_bound + model.bound();
-          }
-        },
-        torque);
-  }
-  return segment;
-}
-
-/// The stage-varying models, summed at one instant.
-template <class T>
-void add_varying(TorqueSample<T>& sum, std::span<const Torque<T>> torques, const T& t_s) {
-  for (const Torque<T>& torque : torques) {
-    std::visit(
-        [&](const auto& model) {
-          if constexpr (requires { model.at(t_s); }) {
-            Vec3<T>& part = model.frame == Frame::body ? sum.body : sum.inertial;
-            part = part + model.at(t_s);
-          }
-        },
-        torque);
-  }
-}
-
-/// |x| + |y| + |z|: a bound of the norm that needs no root.
-template <class T>
-T sum_of_magnitudes(const Vec3<T>& v) {
-  using std::abs;
-  return abs(v.x) + abs(v.y) + abs(v.z);
-}
-
-/// ∫|tau| dt over the segment, at most.
-template <class T>
-T impulse_bound(const Segment<T>& s, const T& length_s) {
-  const auto largest = [&](const Ramp<T>& ramp) {
-    return sum_of_magnitudes(ramp.start) + length_s * sum_of_magnitudes(ramp.slope);
-  };
-  return length_s * (largest(s.body) + largest(s.inertial) + s.varying_bound);
-}
-
-/// ∫|tau| dt of the damping, at most, beside other torques of `impulse`: |omega|² ≤ 2E/J_min, and damping
-/// takes E down; nor can it change the momentum by more than the most that E allows, back and forth.
-template <class T>
-T damping_impulse_bound(const RigidBody<T>& body, const Segment<T>& s, const Vec3<T>& Pi_B,
-                        const T& impulse, const T& length_s) {
-  using std::sqrt;
-  const T root = sqrt(T(2) * body.energy(Pi_B)) + impulse * sqrt(body.inverse_moments()[0]);
-  const T largest = std::max(std::max(s.damping.x, s.damping.y), s.damping.z);
-  const T by_rate = length_s * largest * root * sqrt(body.inverse_moments()[0]);
-  const T by_energy = T(2) * root / sqrt(body.inverse_moments()[2]);
-  return by_rate > by_energy ? by_energy : by_rate;
-}
-
 /// One step of the scheme; false when it could not follow the motion into a unit quaternion: then the
 /// attitude stays as it was, and H_I has taken its impulse all the same.
 template <class Scheme, class T, class StepTorque>
@@ -137,19 +49,6 @@ template <class Scheme, class T, class StepTorque>
   }
   state.q_IB = q_before;
   return false;
-}
-
-/// All that does not look at omega_B, `since` the segment's beginning at t_s.
-template <class T>
-[[gnu::always_inline]] inline TorqueSample<T> torque_at(const Segment<T>& segment,
-                                                        std::span<const Torque<T>> torques,
-                                                        const T& t_s, const T& since) {
-  TorqueSample<T> tau{segment.body.start + since * segment.body.slope,
-                      segment.inertial.start + since * segment.inertial.slope};
-  if (segment.varying) {
-    add_varying(tau, torques, t_s + since);
-  }
-  return tau;
 }
 
 /// A scheme of many stages: each form of its step takes long to compile, and what a special form saves is
@@ -170,15 +69,15 @@ template <class Scheme, class T>
   const T t_s = seconds<T>(t_ns);
   bool all = true;
   for (std::int64_t i = 0; i < parts; ++i) {
-    const T begun = T(i) * h;
-    all = follow<Scheme>(
-              body, state, h, mixed_torque([&](const Stage<T>& stage) {
-                TorqueSample<T> tau = torque_at(segment, torques, t_s, begun + stage.time_s);
-                const Vec3<T>&c = segment.damping, &omega = stage.omega_B;
-                tau.body = tau.body - Vec3<T>{c.x * omega.x, c.y * omega.y, c.z * omega.z};
-                return tau;
-              })) &&
-          all;
+    const auto timed = timed_torque<Scheme>(segment, torques, t_s, T(i) * h, h);
+    all =
+        follow<Scheme>(body, state, h, mixed_torque([&](const Stage<T>& stage) {
+                         TorqueSample<T> tau = timed(stage);
+                         const Vec3<T>&c = segment.damping, &omega = stage.omega_B;
+                         tau.body = tau.body - Vec3<T>{c.x * omega.x, c.y * omega.y, c.z * omega.z};
+                         return tau;
+                       })) &&
+        all;
   }
   return all;
 }
@@ -240,10 +139,8 @@ bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
   }
   const T t_s = seconds<T>(t_ns);
   for (std::int64_t i = 0; i < parts; ++i) {
-    const T begun = T(i) * h;
-    const auto torque = [&](const Stage<T>& stage) {
-      return torque_at(segment, torques, t_s, begun + stage.time_s);
-    };
+    const auto timed = timed_torque<Scheme>(segment, torques, t_s, T(i) * h, h);
+    const auto torque = [&timed](const Stage<T>& stage) { return timed(stage); };
     if constexpr (!has_many_stages<Scheme>()) {
       if (!body_only) {
         all = follow<Scheme>(body, state, h, rateless_mixed_torque(torque)) && all;

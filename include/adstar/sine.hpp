@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -37,23 +38,55 @@ template <Binary64 T>
   return r + r * (s * (low + s4 * high));
 }
 
+inline constexpr double kLargestReduced = 1e8;
+
+/// |x| ≤ kLargestReduced
+[[gnu::always_inline]] inline double reduced_sine(double x) {
+  const double shifted = x * kOverPi + kWholes;
+  const double y = sine_less_half_turns(x, shifted - kWholes);
+  const std::uint64_t odd = std::bit_cast<std::uint64_t>(shifted) << 63U;
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(y) ^ odd);
+}
+
 }  // namespace detail
 
 inline double sine(double x) {
-  if (!(std::fabs(x) <= 1e8)) {
+  if (!(std::fabs(x) <= detail::kLargestReduced)) {
     constexpr double kTwoPi = 0x1.921fb54442d18p+2;
     x = std::fmod(x, kTwoPi);  // NaN for infinities and NaN
   }
-  const double shifted = x * detail::kOverPi + detail::kWholes;
-  const double y = detail::sine_less_half_turns(x, shifted - detail::kWholes);
-  const std::uint64_t odd = std::bit_cast<std::uint64_t>(shifted) << 63U;
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(y) ^ odd);
+  return detail::reduced_sine(x);
 }
 
 template <class T>
 requires(!std::is_same_v<T, double>) T sine(const T& x) {
   using std::sin;
   return sin(x);
+}
+
+/// x[i] := sine(x[i]), the same bits, in a loop that the compiler makes lanes of.
+template <std::size_t N>
+[[gnu::always_inline]] inline void replace_by_sines(double (&x)[N]) {
+  bool reducible = true;
+  for (const double angle : x) {
+    reducible = reducible & (std::fabs(angle) <= detail::kLargestReduced);
+  }
+  if (!reducible) [[unlikely]] {
+    for (double& angle : x) {
+      angle = sine(angle);
+    }
+    return;
+  }
+  for (double& angle : x) {
+    angle = detail::reduced_sine(angle);
+  }
+}
+
+template <class T, std::size_t N>
+requires(!std::is_same_v<T, double>) void replace_by_sines(T (&x)[N]) {
+  for (T& angle : x) {
+    angle = sine(angle);
+  }
 }
 
 }  // namespace adstar

@@ -16,6 +16,8 @@ const char* state_text(adstar_ServiceState state) {
       return "waiting for a step request";
     case adstar_SERVICE_PAUSED:
       return "paused";
+    case adstar_SERVICE_STANDBY:
+      return "a standby";
   }
   return "in a state that this program does not know";
 }

@@ -57,6 +57,8 @@ const char* state_word(adstar_ServiceState state) {
       return "waiting";
     case adstar_SERVICE_PAUSED:
       return "paused";
+    case adstar_SERVICE_STANDBY:
+      return "standby";
   }
   return "unknown";
 }

@@ -107,6 +107,12 @@ void BridgeProcess::start() {
       std::to_string(command_.started_utc_ns),
       "--parent",
       std::to_string(getpid())};
+  if (!command_.run.empty()) {
+    arguments.insert(arguments.end(), {"--run", command_.run});
+  }
+  if (command_.standby) {
+    arguments.push_back("--standby");
+  }
   std::vector<char*> argv;
   for (std::string& argument : arguments) {
     argv.push_back(argument.data());

@@ -17,6 +17,8 @@ struct BridgeCommand {
   std::string service;
   runtime::CommanderId instance;
   std::int64_t started_utc_ns = 0;
+  bool standby = false;
+  std::string run;  ///< directory; empty: none
 };
 
 /// adstar-bridge beside the running program.

@@ -46,11 +46,12 @@ void Housekeeping::look(std::uint64_t bridge_restarts, const StateHash& hash, bo
 
 runtime::RunState Housekeeping::state(bool stopped) const {
   const runtime::TickReport& report = tick_.report();
-  return stopped                      ? runtime::RunState::stopped
-         : report.halted.load() != 0  ? runtime::RunState::halted
-         : report.paused.load() != 0  ? runtime::RunState::paused
-         : report.waiting.load() != 0 ? runtime::RunState::waiting
-                                      : runtime::RunState::running;
+  return stopped                        ? runtime::RunState::stopped
+         : report.following.load() != 0 ? runtime::RunState::standby
+         : report.halted.load() != 0    ? runtime::RunState::halted
+         : report.paused.load() != 0    ? runtime::RunState::paused
+         : report.waiting.load() != 0   ? runtime::RunState::waiting
+                                        : runtime::RunState::running;
 }
 
 runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, const StateHash& hash,

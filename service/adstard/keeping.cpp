@@ -5,6 +5,7 @@
 #include <sys/random.h>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "service/adstard/scene_text.hpp"
@@ -41,14 +42,27 @@ Plan make_plan(Options options) {
   return plan;
 }
 
-Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
-                 runtime::MappedSegment& segment) {
-  const scene::Scene& scene = plan.scene;
-  const std::string directory = options.run.empty() ? scene.run.directory : options.run;
+void begin_run(Plan& plan, const Options& options) {
+  const std::string directory = options.run.empty() ? plan.scene.run.directory : options.run;
   if (!plan.run && !directory.empty()) {
     plan.run = run::RunDirectory::create(
         directory, {random_word(), plan.text, plan.file, options.service, options.duration});
   }
+  if (plan.scene.standby && !plan.run) {
+    throw run::RunError(
+        "a scene with [standby] needs a run on disk, from which a standby gets its state; add "
+        "--run "
+        "DIRECTORY");
+  }
+  if (options.standby && !plan.scene.standby) {
+    throw run::RunError(
+        fmt::format("--standby: {} has no [standby]; add one, for both daemons", plan.file));
+  }
+}
+
+Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
+                 runtime::MappedSegment& segment, const run::Checkpoint* state) {
+  const scene::Scene& scene = plan.scene;
   std::unique_ptr<run::RunLog> log;
   run::Flight flight{tick.gate(), tick.controls(), &tick.fleet(), scene.simulation.step_ns, {}};
   if (plan.run) {
@@ -56,14 +70,16 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
     const std::uint64_t fingerprint = run::scene_fingerprint(scene, plan.text);
     if (!options.resume.empty()) {
       go_on(plan, options.accept_loss, fingerprint, flight, segment->verdicts);
-      tick.go_on_from(flight.at);
+    } else if (state != nullptr) {
+      begin_at(plan, fingerprint, *state, flight);
     }
+    tick.go_on_from(flight.at);
     if (!hot_) {
       hot_ = run::HotJournalFile::create(run_);
     }
     log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, flight, next_number_,
                                         last_in_files_);
-    if (loses_) {
+    if (begins_with_checkpoint_ || scene.standby) {
       log->write_checkpoint(flight.at, runtime::states_of(tick.fleet()), scene.run.whole_history);
     }
     writer_.emplace(**hot_, next_number_);
@@ -86,12 +102,27 @@ void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprin
   }
   if (!resumed.records.gap.empty()) {
     hot_.reset();  // it may hold what comes after the gap
-    loses_ = true;
+    begins_with_checkpoint_ = true;
   }
   next_number_ = resumed.records.next_number;
   last_in_files_ = resumed.records.last_in_files;
   spdlog::info("the run goes on at step {}: checkpoint of step {}, {} commands since",
                flight.at.step, resumed.checkpoint.step, resumed.records.heard.size());
+}
+
+void Keeping::begin_at(const Plan& plan, std::uint64_t fingerprint, const run::Checkpoint& state,
+                       run::Flight& flight) {
+  if (state.fingerprint != fingerprint) {
+    throw run::RunError(fmt::format(
+        "the primary flies another scene than {}: give both daemons the same files", plan.file));
+  }
+  if (state.vehicles.size() != plan.scene.spacecraft.size() || !set_to(flight, state)) {
+    throw run::RunError("the primary's state does not fit the scene that it names");
+  }
+  next_number_ = state.next_number;
+  last_in_files_ = next_number_ - 1;
+  begins_with_checkpoint_ = true;
+  spdlog::info("follows from step {}", flight.at.step);
 }
 
 void Keeping::finish(const runtime::Tick& tick) {

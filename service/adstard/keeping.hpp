@@ -8,6 +8,7 @@
 
 #include "service/adstard/options.hpp"
 #include "service/adstard/recorder.hpp"
+#include "service/run/checkpoint.hpp"
 #include "service/run/hot_journal_file.hpp"
 #include "service/run/run_directory.hpp"
 #include "service/runtime/shared_segment.hpp"
@@ -26,12 +27,16 @@ struct Plan {
 /// Opens the run that is to be gone on with; a new one is not begun yet. Throws SceneError, RunError.
 Plan make_plan(Options options);
 
+/// Makes the directory of a new run, if one is asked for. Throws RunError.
+void begin_run(Plan& plan, const Options& options);
+
 /// Keeps the run while it lives. Without a directory it only hashes the state.
 class Keeping {
  public:
-  /// Before tick.run() and before the bridge: begins the new run, or brings the tick to where a run was that is gone on with.
-  /// Throws RunError.
-  Keeping(Plan& plan, const Options& options, runtime::Tick& tick, runtime::MappedSegment& segment);
+  /// Before tick.run(): begins the new run, or brings the tick to where a run was that is gone on with, or
+  /// to the `state` of a primary. Throws RunError.
+  Keeping(Plan& plan, const Options& options, runtime::Tick& tick, runtime::MappedSegment& segment,
+          const run::Checkpoint* state = nullptr);
 
   StateHash newest_hash() const { return recorder_->newest_hash(); }
 
@@ -41,10 +46,12 @@ class Keeping {
  private:
   void go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint, run::Flight& flight,
              runtime::VerdictRing& verdicts);
+  void begin_at(const Plan& plan, std::uint64_t fingerprint, const run::Checkpoint& state,
+                run::Flight& flight);
 
   std::uint64_t run_ = 0;
   std::uint64_t next_number_ = 1, last_in_files_ = 0;
-  bool loses_ = false;  ///< records are missing between, and that was accepted
+  bool begins_with_checkpoint_ = false;  ///< its journal does not tell how it came there
   std::optional<run::HotJournalFile> hot_;
   std::optional<runtime::JournalWriter> writer_;
   std::unique_ptr<Recorder> recorder_;

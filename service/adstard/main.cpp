@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <sys/random.h>
 #include <thread>
@@ -19,8 +20,11 @@
 #include "service/adstard/keeping.hpp"
 #include "service/adstard/options.hpp"
 #include "service/adstard/scene_text.hpp"
+#include "service/adstard/standby_watch.hpp"
 #include "service/log.hpp"
 #include "service/report/scene_report.hpp"
+#include "service/run/checkpoint.hpp"
+#include "service/run/files.hpp"
 #include "service/runtime/admission.hpp"
 #include "service/runtime/real_time.hpp"
 #include "service/runtime/shared_segment.hpp"
@@ -119,6 +123,30 @@ int await_bridge(BridgeProcess& bridge, const runtime::SharedSegment& segment,
   }
 }
 
+/// A standby's: waits for the state of its primary. Nothing when a signal came first, or the bridge fell
+/// beyond help.
+std::optional<run::Checkpoint> await_state(BridgeProcess& bridge, runtime::MappedSegment& segment,
+                                           Housekeeping& housekeeping, const Plan& plan,
+                                           const sigset_t& signals) {
+  spdlog::info("a standby of '{}': waits for its primary", plan.scene.service.name);
+  std::int64_t next_look = 0;
+  while (segment->standby.state_received.load() == 0) {
+    if (take_signal(signals) != 0) {
+      return std::nullopt;
+    }
+    const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
+    if (!bridge.alive()) {
+      segment.restore_header();
+      bridge.restart_when_due(now);
+    }
+    if (now >= next_look) {
+      housekeeping.look(bridge.restarts(), {}, false);
+      next_look = now + kLookPeriod;
+    }
+  }
+  return run::checkpoint_from(run::read_bytes(run::RunDirectory::received_path(plan.run->path())));
+}
+
 void log_start(const scene::Scene& scene) {
   const scene::Simulation& s = scene.simulation;
   spdlog::info("'{}' propagates {} spacecraft with {}, step {}, pace {}{}{}", scene.service.name,
@@ -135,12 +163,24 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   runtime::MappedSegment segment = runtime::MappedSegment::create(
       scene.telemetry.fleet_every != 0 ? scene.spacecraft.size() : 0);
   runtime::Tick tick(scene, segment);
-  Keeping keeping(plan, options, tick, segment);
   Housekeeping housekeeping(scene, tick, segment);
+  begin_run(plan, options);
+  std::optional<Keeping> keeping;
+  if (options.standby) {
+    tick.stand_by();
+  } else {
+    keeping.emplace(plan, options, tick, segment);
+  }
 
-  BridgeCommand command{
-      bridge_beside_this_program(), segment.fd(), make_sealed_memfd(plan.text), plan.file,
-      scene.service.name,           {},           clock_ns(CLOCK_REALTIME)};
+  BridgeCommand command{bridge_beside_this_program(),
+                        segment.fd(),
+                        make_sealed_memfd(plan.text),
+                        plan.file,
+                        scene.service.name,
+                        {},
+                        clock_ns(CLOCK_REALTIME),
+                        options.standby,
+                        plan.run ? plan.run->path().string() : ""};
   if (getrandom(&command.instance, sizeof command.instance, 0) != sizeof command.instance) {
     throw std::system_error(errno, std::generic_category(), "getrandom");
   }
@@ -149,10 +189,22 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   if (const int code = await_bridge(bridge, *segment, signals); code != kDone) {
     segment->stop_requested.store(1);
     bridge.finish(kBridgePatienceMs);
-    keeping.finish(tick);  // it can be gone on with from here
+    if (keeping) {
+      keeping->finish(tick);  // it can be gone on with from here
+    }
     return code;
   }
   log_start(scene);
+  if (options.standby) {
+    const auto state = await_state(bridge, segment, housekeeping, plan, signals);
+    if (!state) {
+      segment->stop_requested.store(1);
+      bridge.finish(kBridgePatienceMs);
+      return kFailed;
+    }
+    keeping.emplace(plan, options, tick, segment, &*state);
+    segment->standby.following.store(1);
+  }
 
   runtime::RealTime real_time;
   runtime::lock_memory(real_time);
@@ -180,7 +232,14 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   pulse.begin(segment->bridge_rounds.load(), clock_ns(CLOCK_MONOTONIC));
   bool bridge_was_alive = true;
   std::int64_t next_look = 0;
+  int exit_code = kDone;
+  StandbyWatch standby_watch(*segment);
   while (!ended.load()) {
+    if (const auto why = standby_watch.why_to_end(); why && !stop.load()) {
+      spdlog::error("stopping: {}", *why);
+      exit_code = kRefused;
+      stop.store(true);
+    }
     if (const int signal = take_signal(signals); signal != 0) {
       spdlog::info("stopping: {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
       stop.store(true);
@@ -202,7 +261,7 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
       pulse.begin(segment->bridge_rounds.load(), now);
     }
     if (now >= next_look) {
-      housekeeping.look(bridge.restarts(), keeping.newest_hash(), false);
+      housekeeping.look(bridge.restarts(), keeping->newest_hash(), false);
       next_look = now + kLookPeriod;
     }
   }
@@ -212,13 +271,13 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   tick_thread.join();
 
   tick.publish_final(kBridgePatienceMs / 3);
-  keeping.finish(tick);
-  housekeeping.look(bridge.restarts(), keeping.newest_hash(), true);
+  keeping->finish(tick);
+  housekeeping.look(bridge.restarts(), keeping->newest_hash(), true);
   segment->stop_requested.store(1);
   runtime::wake_bridge(*segment);
   bridge.finish(kBridgePatienceMs);
   housekeeping.summarise();
-  return kDone;
+  return exit_code;
 }
 
 }  // namespace

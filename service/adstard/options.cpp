@@ -22,6 +22,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_flag("--accept-loss", options.accept_loss,
                "with --resume: go on even where part of the journal is missing")
       ->needs(resume);
+  app.add_flag(
+         "--standby", options.standby,
+         "follow the primary of this scene's [standby] in silence, and go on in its place when "
+         "it is gone")
+      ->excludes(resume);
   app.add_option("--service", options.service,
                  "what this daemon calls itself (default: the scene's name, or the host's)");
   app.add_option("--duration", options.duration,
@@ -30,7 +35,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.footer(
       "Examples:\n  adstard configs/scenes/demo.toml\n  adstard configs/scenes/demo.toml --run "
       "runs/monday\n"
-      "  adstard --resume runs/monday\n\n"
+      "  adstard --resume runs/monday\n"
+      "  adstard pair.toml --run runs/b --standby\n\n"
       "Exit codes: 0 done, 2 usage or scene, 3 refused (somebody flies these spacecraft already, "
       "or the "
       "step does not fit its beat, or the run cannot go on as it was), "

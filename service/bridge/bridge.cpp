@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cstring>
+#include <deque>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -9,7 +11,9 @@
 
 #include "service/bridge/command_intake.hpp"
 #include "service/bridge/directory.hpp"
+#include "service/bridge/follower.hpp"
 #include "service/bridge/other_services.hpp"
+#include "service/bridge/primary_voice.hpp"
 #include "service/bridge/process.hpp"
 #include "service/bridge/publisher.hpp"
 #include "service/bridge/roster.hpp"
@@ -22,6 +26,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
+constexpr std::string_view kStandbySuffix = ".standby";
 constexpr auto kMeetOthers = 500ms;
 // A bridge that was ready before was past the question who came first: only learn the rosters.
 constexpr auto kMeetOthersAgain = 50ms;
@@ -86,7 +91,7 @@ void warn_of_drops(const dds::Participant& participant) {
 
 void carry(const dds::Participant& participant, runtime::SharedSegment& segment,
            Publisher& publisher, OtherServices& others, AnswerWriters& answers,
-           const CommandIntake& intake, const scene::Dds& dds) {
+           const CommandIntake& intake, std::optional<PrimaryVoice>& voice, const scene::Dds& dds) {
   auto next_chore = Clock::now();
   auto drained_by = Clock::time_point::max();
   while (true) {
@@ -94,6 +99,9 @@ void carry(const dds::Participant& participant, runtime::SharedSegment& segment,
     segment.bridge_rounds.fetch_add(1);
     // Read before the rings: adstard asks to stop only after its last push.
     const bool last_round = stopping(segment);
+    if (voice) {
+      voice->speak();
+    }
     const Publisher::Left left = publisher.publish_some();
     const auto now = Clock::now();
     if (last_round) {
@@ -107,12 +115,51 @@ void carry(const dds::Participant& participant, runtime::SharedSegment& segment,
       intake.check();
       warn_of_rival(others.poll(), dds);
       warn_of_drops(participant);
+      if (voice) {
+        voice->look_around();
+      }
       answers.forget_silent(kCommanderSilence, now);
     }
     if (left != Publisher::Left::more) {
       runtime::sleep_until_woken(segment, seen, left == Publisher::Left::fleet ? 1 : 50);
     }
   }
+}
+
+/// The verdicts of the last two seconds of simulation time: a primary that is gone may not have said them.
+void keep_verdicts(runtime::SharedSegment& segment, std::deque<runtime::VerdictRecord>& kept) {
+  constexpr std::int64_t kYoung_ns = 2'000'000'000;
+  constexpr std::size_t kMost = 4096;
+  while (const auto verdict = segment.verdicts.pop()) {
+    kept.push_back(*verdict);
+  }
+  while (kept.size() > kMost ||
+         (!kept.empty() && kept.back().time_ns - kept.front().time_ns > kYoung_ns)) {
+    kept.pop_front();
+  }
+}
+
+/// Mute but for its status, until the primary is gone. False when it is to end before.
+bool stand_by(runtime::SharedSegment& segment, Publisher& publisher, Follower& follower) {
+  std::deque<runtime::VerdictRecord> kept;
+  while (!stopping(segment)) {
+    const std::uint32_t seen = segment.wake_count.load();
+    segment.bridge_rounds.fetch_add(1);
+    const bool gone = follower.primary_is_gone();
+    keep_verdicts(segment, kept);
+    publisher.publish_health();
+    if (gone) {
+      segment.standby.term.fetch_add(1);
+      segment.standby.take_over.store(1);
+      runtime::wake_tick(segment);
+      for (const runtime::VerdictRecord& verdict : kept) {
+        publisher.say(verdict);
+      }
+      return true;
+    }
+    runtime::sleep_until_woken(segment, seen, 1);
+  }
+  return false;
 }
 
 }  // namespace
@@ -135,9 +182,12 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
       {scene.dds.domain, scene.dds.interface, scene.dds.partition, scene.dds.security});
   const Directory directory(scene);
   dds::Writer<adstar_ServiceRoster> roster(participant);
-  write_roster(roster, scene, options);
+  const bool stands_by = options.standby && segment->standby.take_over.load() == 0;
+  if (!stands_by) {
+    write_roster(roster, scene, options);
+  }
   OtherServices others(participant, directory, options);
-  if (const auto rival = meet_others(others, *segment, reattached)) {
+  if (const auto rival = stands_by ? std::nullopt : meet_others(others, *segment, reattached)) {
     const std::string message = conflict_message(*rival, scene.dds);
     spdlog::error("{}", message);
     refuse(*segment, message);
@@ -146,11 +196,30 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
 
   AnswerWriters answers(participant);
   Publisher publisher(participant, segment, scene, directory, options, answers);
-  // What waited while nobody read is stale; verdicts are answers still owed.
-  if (const std::size_t stale = segment->telemetry.size(); reattached && stale > 0) {
-    spdlog::warn("{} telemetry samples lost: they waited while there was no bridge", stale);
+  std::optional<PrimaryVoice> voice;
+  if (scene.standby) {
+    others.tolerate_namesakes();  // the terms settle who flies
+    voice.emplace(participant, *segment, *scene.standby, options);
   }
-  segment->telemetry.skip_all();
+  if (stands_by) {
+    Follower follower(participant, *segment, *scene.standby, options);
+    participant.bind_sockets_to_interface();
+    publisher.rename(options.service.substr(0, 63 - kStandbySuffix.size()) +
+                     std::string(kStandbySuffix));
+    set_state(*segment, runtime::BridgeState::ready);
+    if (!stand_by(*segment, publisher, follower)) {
+      return kDone;
+    }
+    publisher.rename(options.service);
+    write_roster(roster, scene, options);
+  }
+  // What waited while nobody read is stale; verdicts are answers still owed.
+  if (!stands_by) {
+    if (const std::size_t stale = segment->telemetry.size(); reattached && stale > 0) {
+      spdlog::warn("{} telemetry samples lost: they waited while there was no bridge", stale);
+    }
+    segment->telemetry.skip_all();
+  }
   {
     const CommandIntake intake(participant, *segment, directory, others, answers.commands,
                                options.service);
@@ -162,7 +231,7 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
         options.service, scene.dds.interface, scene.dds.domain, scene.dds.partition,
         directory.size(), sockets,
         scene.dds.security ? "secured" : "open to whoever reaches the interface");
-    carry(participant, *segment, publisher, others, answers, intake, scene.dds);
+    carry(participant, *segment, publisher, others, answers, intake, voice, scene.dds);
     intake.check();
     const PublishedCounts& counts = publisher.counts();
     spdlog::info(
@@ -171,6 +240,9 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
         "records, {} fleet chunks published, {} samples unsent",
         intake.handed_over(), intake.refused(), intake.stale(), segment->commands_lost.load(),
         counts.verdicts, counts.telemetry, counts.fleet_chunks, counts.unsent);
+  }
+  if (voice) {
+    voice->wait_for_readers(kLastAcks);
   }
   if (!publisher.wait_for_readers(kLastAcks)) {
     spdlog::warn("not every reader acknowledged the last samples in {} ms", kLastAcks.count());

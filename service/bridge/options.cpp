@@ -27,6 +27,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
   app.add_option("--service", options.service)->required();
   app.add_option("--instance", instance)->required();
   app.add_option("--started-utc-ns", options.started_utc_ns)->required();
+  app.add_option("--run", options.run);
+  app.add_flag("--standby", options.standby);
   app.add_option("--parent", options.parent)->required();
   try {
     app.parse(argc, argv);

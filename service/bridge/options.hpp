@@ -17,6 +17,8 @@ struct Options {
   std::string service;            ///< what the daemon calls itself
   runtime::CommanderId instance;  ///< 128 random bits of the daemon process
   std::int64_t started_utc_ns = 0;
+  bool standby = false;  ///< begins as one
+  std::string run;       ///< directory of the run; empty: none
   pid_t parent = 0;
 };
 

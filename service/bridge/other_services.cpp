@@ -44,6 +44,9 @@ void OtherServices::learn(const adstar_ServiceRoster& roster, std::optional<Riva
   if (roster.instance_high == std::get<1>(self_) && roster.instance_low == std::get<2>(self_)) {
     return;  // ourselves, or the bridge that ran here before
   }
+  if (tolerates_namesakes_ && dds::text_of(roster.service) == service_) {
+    return;
+  }
   const std::lock_guard lock(mutex_);
   if (spacecraft_.size() >= kMostServices && !spacecraft_.contains(instance)) {
     return;

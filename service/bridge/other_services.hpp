@@ -31,6 +31,9 @@ class OtherServices {
   /// Reads what came since; the first rival among it. An older one takes precedence. Main thread.
   std::optional<Rival> poll();
 
+  /// From now on a daemon of our own name is no rival.
+  void tolerate_namesakes() noexcept { tolerates_namesakes_ = true; }
+
   /// Some other daemon lists the spacecraft. Any thread.
   bool flies(std::string_view spacecraft) const;
 
@@ -44,6 +47,7 @@ class OtherServices {
   const Directory& directory_;
   Instance self_;
   std::string service_;
+  bool tolerates_namesakes_ = false;
   mutable std::mutex mutex_;
   std::map<Instance, std::unordered_set<std::string>> spacecraft_;
 };

@@ -95,13 +95,27 @@ bool Publisher::publish_verdicts() {
     if (!record) {
       return false;
     }
-    const std::string_view spacecraft = directory_.spacecraft_name(record->spacecraft);
-    const std::string_view actuator =
-        directory_.actuator_name(record->spacecraft, record->actuator);
-    count_unsent(answers_.commands.write(dds::to_sample(*record, spacecraft, actuator, service_)));
-    ++counts_.verdicts;
+    say(*record);
   }
   return true;
+}
+
+void Publisher::say(const runtime::VerdictRecord& record) {
+  const std::string_view spacecraft = directory_.spacecraft_name(record.spacecraft);
+  const std::string_view actuator = directory_.actuator_name(record.spacecraft, record.actuator);
+  count_unsent(answers_.commands.write(dds::to_sample(record, spacecraft, actuator, service_)));
+  ++counts_.verdicts;
+}
+
+void Publisher::rename(std::string_view service) {
+  adstar_ServiceStatus old_status{};
+  dds::set_text(old_status.service, service_);
+  status_.unregister_instance(old_status);
+  adstar_StepTiming old_timing{};
+  dds::set_text(old_timing.service, service_);
+  timing_.unregister_instance(old_timing);
+  service_ = service;
+  facts_.service = service_;
 }
 
 void Publisher::publish_step_replies(std::size_t count) {

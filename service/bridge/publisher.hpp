@@ -37,6 +37,15 @@ class Publisher {
   /// Publishes at most one batch of everything; says what waits.
   Left publish_some();
 
+  /// Of what publish_some() publishes, ServiceStatus and StepTiming alone.
+  void publish_health();
+
+  /// What the daemon calls itself from now on.
+  void rename(std::string_view service);
+
+  /// An answer that was given while this daemon was mute.
+  void say(const runtime::VerdictRecord& record);
+
   /// Gives reliable readers a moment to have it all. False when some did not in time.
   bool wait_for_readers(std::chrono::milliseconds timeout);
 
@@ -48,7 +57,6 @@ class Publisher {
   bool publish_fleet();
   void publish_step_replies(std::size_t count);
   void publish_control_answers();
-  void publish_health();
   void count_unsent(bool sent) { counts_.unsent += sent ? 0 : 1; }
 
   runtime::MappedSegment& segment_;

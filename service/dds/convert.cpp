@@ -35,6 +35,7 @@ static_assert(static_cast<int>(runtime::RunState::stopped) == adstar_SERVICE_STO
 static_assert(static_cast<int>(runtime::RunState::halted) == adstar_SERVICE_HALTED);
 static_assert(static_cast<int>(runtime::RunState::waiting) == adstar_SERVICE_WAITING);
 static_assert(static_cast<int>(runtime::RunState::paused) == adstar_SERVICE_PAUSED);
+static_assert(static_cast<int>(runtime::RunState::standby) == adstar_SERVICE_STANDBY);
 static_assert(static_cast<int>(StepOutcome::accepted) == adstar_STEP_ACCEPTED);
 static_assert(static_cast<int>(StepOutcome::done) == adstar_STEP_DONE);
 static_assert(static_cast<int>(StepOutcome::ended) == adstar_STEP_ENDED);

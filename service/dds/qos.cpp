@@ -27,13 +27,17 @@ QosHandle make_qos(const Qos& qos) {
   dds_qset_history(made.get(), DDS_HISTORY_KEEP_LAST, qos.depth);
   dds_qset_resource_limits(made.get(), qos.limit, qos.limit, DDS_LENGTH_UNLIMITED);
   if (qos.durability == Durability::transient_local) {
-    dds_qset_durability_service(made.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
-                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    dds_qset_durability_service(made.get(), 0, DDS_HISTORY_KEEP_LAST, qos.late_depth,
+                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   }
-  // Shared ownership and automatic liveliness: every other setting silently fails to match a
-  // default peer.
+  // Shared ownership, and automatic liveliness but between daemons: every other setting silently fails
+  // to match a default peer.
   dds_qset_ownership(made.get(), DDS_OWNERSHIP_SHARED);
-  dds_qset_liveliness(made.get(), DDS_LIVELINESS_AUTOMATIC, DDS_INFINITY);
+  if (qos.lease_ns > 0) {
+    dds_qset_liveliness(made.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, qos.lease_ns);
+  } else {
+    dds_qset_liveliness(made.get(), DDS_LIVELINESS_AUTOMATIC, DDS_INFINITY);
+  }
   return made;
 }
 

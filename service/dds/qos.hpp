@@ -18,12 +18,14 @@ struct Qos {
   /// Bound on instances and on samples altogether; only for best-effort readers, because a reliable
   /// reader that rejects a sample stalls the receive thread.
   std::int32_t limit = DDS_LENGTH_UNLIMITED;
+  std::int32_t late_depth = 1;  ///< of what a late joiner gets
+  /// Above 0: liveliness is asserted by writing alone, and lost after so long [ns].
+  std::int64_t lease_ns = 0;
 };
 
 using QosHandle = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
-/// max_blocking_time is 0: no write ever waits. A late joiner gets the last sample of an instance,
-/// whatever the depth.
+/// max_blocking_time is 0: no write ever waits.
 QosHandle make_qos(const Qos& qos);
 
 /// For publishers and subscribers; an empty partition is DDS's default one.

@@ -22,10 +22,13 @@ class Reader {
   /// Most samples that one take() hands out.
   static constexpr std::size_t kBatch = 64;
 
-  explicit Reader(const Participant& participant)
+  explicit Reader(const Participant& participant) : Reader(participant, topic_of<T>().reader) {}
+
+  /// With a QoS of the scene's instead of the topic's.
+  Reader(const Participant& participant, const Qos& qos)
       : topic_(make_topic<T>(participant)),
-        reader_(dds_create_reader(participant.subscriber(), topic_.handle(),
-                                  make_qos(topic_of<T>().reader).get(), nullptr),
+        reader_(dds_create_reader(participant.subscriber(), topic_.handle(), make_qos(qos).get(),
+                                  nullptr),
                 "dds_create_reader", topic_subject<T>()) {}
 
   /// Calls on_sample(const T&, const dds_sample_info_t&) for each sample with data, and

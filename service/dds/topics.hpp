@@ -5,6 +5,7 @@
 #include <command.h>
 #include <health.h>
 #include <run.h>
+#include <standby.h>
 #include <telemetry.h>
 #include <tuple>
 
@@ -34,6 +35,12 @@ inline constexpr Qos kCommandsOut{Reliability::reliable, Durability::volatile_, 
 /// 10,000.
 inline constexpr Qos kCommandsIn{Reliability::best_effort, Durability::volatile_, 64, 65'536};
 
+/// All records since the last checkpoint, for a standby that comes late.
+inline constexpr Qos kRelay{Reliability::reliable, Durability::transient_local, 4096,
+                            DDS_LENGTH_UNLIMITED, 4096};
+/// The scene's lease is laid over it.
+inline constexpr Qos kBeats{Reliability::reliable, Durability::volatile_, 1};
+
 inline constexpr std::tuple kTopics{
     Topic<adstar_TorqueCommand>{&adstar_TorqueCommand_desc, "adstar/torque_command", kCommandsOut,
                                 kCommandsIn},
@@ -55,7 +62,12 @@ inline constexpr std::tuple kTopics{
     Topic<adstar_RunControl>{&adstar_RunControl_desc, "adstar/run_control", kCommandsOut,
                              kCommandsIn},
     Topic<adstar_RunControlStatus>{&adstar_RunControlStatus_desc, "adstar/run_control_status",
-                                   kAnswers, kAnswers}};
+                                   kAnswers, kAnswers},
+    Topic<adstar_StandbyBeat>{&adstar_StandbyBeat_desc, "adstar/standby_beat", kBeats, kBeats},
+    Topic<adstar_StandbyRecord>{&adstar_StandbyRecord_desc, "adstar/standby_record", kRelay,
+                                kRelay},
+    Topic<adstar_StandbyState>{&adstar_StandbyState_desc, "adstar/standby_state", kLatest,
+                               kLatest}};
 
 template <class T>
 constexpr const Topic<T>& topic_of() {

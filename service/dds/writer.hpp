@@ -30,10 +30,13 @@ Entity make_topic(const Participant& participant) {
 template <class T>
 class Writer {
  public:
-  explicit Writer(const Participant& participant)
+  explicit Writer(const Participant& participant) : Writer(participant, topic_of<T>().writer) {}
+
+  /// With a QoS of the scene's instead of the topic's.
+  Writer(const Participant& participant, const Qos& qos)
       : topic_(make_topic<T>(participant)),
-        writer_(dds_create_writer(participant.publisher(), topic_.handle(),
-                                  make_qos(topic_of<T>().writer).get(), nullptr),
+        writer_(dds_create_writer(participant.publisher(), topic_.handle(), make_qos(qos).get(),
+                                  nullptr),
                 "dds_create_writer", topic_subject<T>()) {}
 
   /// False when Cyclone's send window is full: the sample is lost, nobody waited. Throws Error on

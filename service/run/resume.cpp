@@ -138,15 +138,17 @@ std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
   return std::nullopt;
 }
 
-void set_to(Flight& flight, const Checkpoint& checkpoint) {
+bool set_to(Flight& flight, const Checkpoint& checkpoint) {
   flight.at = checkpoint.at;
-  flight.gate.load(checkpoint.gate);
-  flight.controls.load(checkpoint.controls);
+  if (!flight.gate.load(checkpoint.gate) || !flight.controls.load(checkpoint.controls)) {
+    return false;
+  }
   if (flight.fleet != nullptr) {
     for (std::size_t i = 0; i < checkpoint.vehicles.size(); ++i) {
       restore(*flight.fleet, i, checkpoint.vehicles[i]);
     }
   }
+  return true;
 }
 
 Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,

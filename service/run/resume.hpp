@@ -35,8 +35,9 @@ std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
                                             const scene::Scene& scene, std::uint64_t fingerprint,
                                             std::vector<std::string>& refused);
 
-/// The flight as the checkpoint has it. Its gate must be new.
-void set_to(Flight& flight, const Checkpoint& checkpoint);
+/// The flight as the checkpoint has it. Its gate must be new. False when it is of another scene: the flight
+/// is to be thrown away.
+bool set_to(Flight& flight, const Checkpoint& checkpoint);
 
 struct Resumed {
   Instant checkpoint;  ///< where it began

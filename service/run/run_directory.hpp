@@ -4,6 +4,7 @@
 //   run.json  scene.toml                     what is flown
 //   checkpoint-000007.bin                    the newest have the highest count
 //   journal-000012.bin                       likewise; the records go on from one to the next
+//   received.bin                             a standby's: the state of the primary, as it came
 //   lock                                     held by the daemon that flies it
 
 #include <cstdint>
@@ -43,6 +44,9 @@ class RunDirectory {
   std::vector<Numbered> journals() const;     ///< oldest first
   std::filesystem::path checkpoint_path(std::uint64_t count) const;
   std::filesystem::path journal_path(std::uint64_t count) const;
+  static std::filesystem::path received_path(const std::filesystem::path& run) {
+    return run / "received.bin";
+  }
 
  private:
   RunDirectory(std::filesystem::path path, RunFacts facts)

@@ -68,6 +68,9 @@ class JournalWriter {
   JournalWriter(HotJournal& hot, std::uint64_t next_number) noexcept
       : hot_(hot), next_number_(next_number) {}
 
+  /// Of the record that comes next.
+  std::uint64_t next_number() const noexcept { return next_number_; }
+
   /// Whether one more will be taken; what finds no place must not happen.
   bool has_room() const noexcept { return hot_.ring.has_room(); }
 

@@ -85,6 +85,9 @@ void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
 }
 
 void Tick::publish_final(int patience_ms) {
+  if (following()) {
+    return;
+  }
   const std::uint64_t step = report_.step.load(std::memory_order_relaxed);
   const std::int64_t patience_ends = monotonic_ns() + patience_ms * (kSecond / 1000);
   const std::uint32_t topics = topics_at(step, true);
@@ -101,6 +104,7 @@ void Tick::publish_final(int patience_ms) {
   if (telemetry_.fleet_every != 0) {
     write_fleet(step, kFlagFinal);
   }
+  tell_standby(true);
   wake_bridge(*segment_);
 }
 

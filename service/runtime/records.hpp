@@ -127,7 +127,7 @@ struct FleetHeader {
 };
 
 /// Same values and order as ServiceState in idl/health.idl.
-enum class RunState : std::uint64_t { running, stopped, halted, waiting, paused };
+enum class RunState : std::uint64_t { running, stopped, halted, waiting, paused, standby };
 
 /// Counts, once a second and at the end: becomes ServiceStatus.
 struct StatusRecord {
@@ -193,6 +193,14 @@ struct TimingRecord {
   std::uint64_t fifo_scheduling = 0;
   std::uint64_t memory_locked = 0;
   std::uint64_t cpu_pinned = 0;
+};
+
+/// How far a primary is: what its standby may compute up to.
+struct StandbyBeatRecord {
+  std::uint64_t step = 0;         ///< the next beat to be computed
+  std::uint64_t next_number = 1;  ///< of the journal record that would come next
+  std::int64_t received_ns = 0;   ///< monotonic clock of the standby's bridge; 0: never
+  std::uint64_t ended = 0;        ///< 1: it ends in good order, and computes no more
 };
 
 /// One StepRequest: so many steps are to be taken while the clock stands. Not yet judged.

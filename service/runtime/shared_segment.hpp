@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "service/runtime/journal.hpp"
 #include "service/runtime/latest_value.hpp"
 #include "service/runtime/records.hpp"
 #include "service/runtime/ring.hpp"
@@ -18,6 +19,22 @@
 namespace adstar::runtime {
 
 enum class BridgeState : std::uint32_t { starting, ready, refused };
+
+/// Between a primary and its standby (decisions/0016). `following` and `term` are adstard's at the start.
+struct StandbyLink {
+  std::atomic<std::uint64_t> term{1};  ///< rises by one with each take-over
+  std::atomic<std::uint32_t> state_received{
+      0};                                       ///< by the bridge: the primary's state is in a file
+  std::atomic<std::uint32_t> following{0};      ///< by adstard: the tick has it and follows
+  std::atomic<std::uint32_t> take_over{0};      ///< by the bridge: the primary is gone
+  std::atomic<std::uint32_t> lost_track{0};     ///< by the bridge: some of its records are missing
+  std::atomic<std::uint64_t> outranked_by{0};   ///< by the bridge: a higher term is out there
+  std::atomic<std::uint64_t> next_followed{0};  ///< by the bridge: of the record to be pushed next
+  SpscRing<JournalRecord, 4096> relayed;        ///< tick → bridge, of a primary
+  SpscRing<JournalRecord, 4096> followed;       ///< bridge → tick, of a standby
+  LatestValue<StandbyBeatRecord> beat;          ///< tick → bridge, of a primary
+  LatestValue<StandbyBeatRecord> primary_beat;  ///< bridge → tick, of a standby
+};
 
 struct SharedSegment {
   std::uint64_t layout = 0;  ///< kLayout; a bridge of another build refuses to attach
@@ -46,6 +63,7 @@ struct SharedSegment {
   SpscRing<ControlAnswerRecord, 256> control_answers;  ///< tick → bridge
   LatestValue<StatusRecord> status;                    ///< housekeeping → bridge
   LatestValue<TimingRecord> timing;                    ///< housekeeping → bridge
+  StandbyLink standby;
   LatestWords fleet;  ///< tick → bridge; its words follow this struct
 };
 

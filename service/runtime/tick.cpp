@@ -37,6 +37,8 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
       step_requests_(segment->step_replies),
       controls_(segment->control_answers),
       obeys_run_control_(scene.service.run_control),
+      lead_(scene.standby ? scene.standby->lead_steps : 0),
+      held_(scene.standby ? decltype(StandbyLink::relayed)::kCapacity : 0),
       snapshot_every_(snapshot_every(step_ns_)),
       snapshot_(scene.spacecraft.size()),
       fleet_words_(fleet_words(segment.fleet_size())) {
@@ -46,12 +48,21 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
 }
 
 void Tick::run(const std::atomic<bool>& stop) noexcept {
+  BeatClock clock = make_beat_clock(monotonic_ns(), step_ns_, rate_);
+  std::int64_t first_due = clock.base_ns;
+  const bool followed = following();
+  if (followed) {
+    const std::optional<std::int64_t> due = follow(stop);
+    if (!due) {
+      return;
+    }
+    first_due = *due;
+  }
   publish(step(), true);
   told_ = true;
-  BeatClock clock = make_beat_clock(monotonic_ns(), step_ns_, rate_);
-  restart(clock, step(), clock.base_ns);
+  restart(clock, step(), first_due);
   const std::int64_t period_ns = pace_ == scene::Pace::clock ? beats_to_ns(clock, 1) : 0;
-  std::int64_t ended = due_ns(clock, step());
+  std::int64_t ended = followed ? make_up(clock, stop) : due_ns(clock, step());
   report_.asked_ns.store(ended, std::memory_order_relaxed);
   while (!stop.load(std::memory_order_relaxed) && (halted() || step() < last_step_)) {
     if (stands()) {
@@ -120,6 +131,7 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
   const Beat now{n, static_cast<std::int64_t>(n) * step_ns_, step_ns_};
   BeatTimes times{begun_ns, 0, 0, 0};
   take_commands(now, begun_ns);
+  hear_held(now);
   gate_.begin_step(now, fleet_);
   times.commanded = monotonic_ns();
 
@@ -134,13 +146,7 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
                                    std::memory_order_relaxed);
   }
   report_.unresolved_spacecraft.store(unresolved, std::memory_order_relaxed);
-  report_.step.store(n + 1, std::memory_order_relaxed);
-  if (journal_ != nullptr) {
-    journal_->reached(n + 1);
-  }
-  if ((n + 1) % snapshot_every_ == 0) {
-    snapshot_.offer(fleet_.vehicles(), {report_.run.load(std::memory_order_relaxed), n + 1});
-  }
+  reached(n + 1);
   publish_counters();
 
   const bool ended = n + 1 == last_step_;
@@ -149,12 +155,23 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
   told_ =
       segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0 || last_asked_for;
   publish(n + 1, told_);
+  tell_standby(false);
   step_requests_.stepped(face(), ended);
   if (last_asked_for) {
     wake_bridge(*segment_);
   }
   times.handed_over = monotonic_ns();
   return times;
+}
+
+void Tick::reached(std::uint64_t step) noexcept {
+  report_.step.store(step, std::memory_order_relaxed);
+  if (journal_ != nullptr) {
+    journal_->reached(step);
+  }
+  if (step % snapshot_every_ == 0) {
+    snapshot_.offer(fleet_.vehicles(), {report_.run.load(std::memory_order_relaxed), step});
+  }
 }
 
 void Tick::take_commands(const Beat& now, std::int64_t begun_ns) noexcept {
@@ -169,6 +186,8 @@ void Tick::take_commands(const Beat& now, std::int64_t begun_ns) noexcept {
     }
     if (halted()) {
       gate_.refuse(*command, now, Reason::halted);
+    } else if (lead_ > 0) {
+      hold(*command, now);
     } else {
       gate_.receive(*command, now);
     }

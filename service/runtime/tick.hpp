@@ -8,12 +8,14 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "service/runtime/beat_clock.hpp"
 #include "service/runtime/fleet.hpp"
 #include "service/runtime/fleet_snapshot.hpp"
 #include "service/runtime/gate.hpp"
+#include "service/runtime/held_commands.hpp"
 #include "service/runtime/histogram.hpp"
 #include "service/runtime/run_control.hpp"
 #include "service/runtime/shared_segment.hpp"
@@ -45,10 +47,11 @@ struct TickReport {
   std::array<Histogram, kPhases> phases;  ///< by Phase
   std::array<std::atomic<std::uint64_t>, kPhases> over_budget{};
   Histogram tick_body;
-  std::atomic<std::uint32_t> halted{0};    ///< 1 + the Phase that was over its budget; 0: it runs
-  std::atomic<std::int64_t> halted_ns{0};  ///< what that phase took
-  std::atomic<std::uint32_t> paused{0};    ///< 1 while RunControl holds the clock
-  std::atomic<std::uint32_t> waiting{0};   ///< 1 while the clock stands for want of a StepRequest
+  std::atomic<std::uint32_t> halted{0};     ///< 1 + the Phase that was over its budget; 0: it runs
+  std::atomic<std::int64_t> halted_ns{0};   ///< what that phase took
+  std::atomic<std::uint32_t> following{0};  ///< 1 while it computes what a primary has computed
+  std::atomic<std::uint32_t> paused{0};     ///< 1 while RunControl holds the clock
+  std::atomic<std::uint32_t> waiting{0};    ///< 1 while the clock stands for want of a StepRequest
   std::atomic<std::int64_t> asked_ns{
       0};                             ///< monotonic time of the last StepRequest, or of the start
   std::atomic<std::uint64_t> run{0};  ///< rises with each reset
@@ -65,8 +68,12 @@ class Tick {
   /// Before run(): what is to be written down, every command and how far the run is.
   void record_in(JournalWriter* journal) noexcept {
     journal_ = journal;
-    gate_.record_in(journal);
+    next_number_ = journal == nullptr ? 1 : journal->next_number();
+    gate_.record_in(lead_ == 0 ? journal : nullptr);  // what is held is written when it comes
   }
+
+  /// Before run(): compute what a primary has computed, and say nothing, until it is gone.
+  void stand_by() noexcept { report_.following.store(1, std::memory_order_relaxed); }
 
   /// Before run(): a run that goes on at a later step; fleet() and gate() are set to it by the caller.
   void go_on_from(const Instant& at) noexcept {
@@ -115,6 +122,7 @@ class Tick {
   std::int64_t await_beat(BeatClock& clock, std::uint64_t n, std::int64_t ended_ns) noexcept;
   void catch_up_or_skip(BeatClock& clock, std::uint64_t n, std::int64_t begun_ns) noexcept;
   BeatTimes beat(std::uint64_t n, std::int64_t begun_ns) noexcept;
+  void reached(std::uint64_t step) noexcept;
   void take_commands(const Beat& now, std::int64_t begun_ns) noexcept;
   void account(const BeatTimes& times, std::int64_t period_ns) noexcept;
   void judge(Phase phase, std::int64_t took_ns) noexcept;
@@ -129,6 +137,17 @@ class Tick {
   void follow(ControlAction action) noexcept;
   bool answers_wait() const noexcept;
   std::int64_t await_room(std::int64_t ended_ns) noexcept;
+
+  // following.cpp: a primary and its standby
+  bool following() const noexcept { return report_.following.load(std::memory_order_relaxed) != 0; }
+  void hold(const CommandRecord& command, const Beat& now) noexcept;
+  void keep(const JournalRecord& record) noexcept;
+  void hear_held(const Beat& now) noexcept;
+  void tell_standby(bool ended) noexcept;
+  std::optional<std::int64_t> follow(const std::atomic<bool>& stop) noexcept;
+  void take_followed() noexcept;
+  void follow_beat() noexcept;
+  std::int64_t make_up(const BeatClock& clock, const std::atomic<bool>& stop) noexcept;
 
   // publishing.cpp
   void publish(std::uint64_t step, bool everything) noexcept;
@@ -154,7 +173,10 @@ class Tick {
   bool restart_clock_ = false;  ///< the next beat is due when it comes
   bool told_ = false;           ///< everything was published of what the fleet is now
   JournalWriter* journal_ = nullptr;
-  std::uint64_t snapshot_every_;  ///< steps: about a second of simulation time
+  std::uint64_t lead_;             ///< beats from a command's coming to its hearing; 0: no standby
+  HeldCommands held_;              ///< those that wait for it
+  std::uint64_t next_number_ = 1;  ///< of the journal record that comes next, where there is a lead
+  std::uint64_t snapshot_every_;   ///< steps: about a second of simulation time
   FleetSnapshot snapshot_;
   std::vector<std::uint64_t> fleet_words_;
   bool late_by_work_ = false;  ///< what made the beats since the last sleep late

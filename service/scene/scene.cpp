@@ -66,6 +66,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   scene.budget = read_budget(root, scene.simulation);
   scene.run = read_run(root);
   scene.service = read_service(root);
+  scene.standby = read_standby(root, scene.simulation, scene.service);
   scene.dds = read_dds(root, file);
   scene.log = read_log(root);
   root.refuse_unknown();

@@ -91,6 +91,12 @@ struct Run {
       false;  ///< keep all of the journal, not only what the newest checkpoints need
 };
 
+/// A second daemon that goes on when this one is gone.
+struct Standby {
+  std::uint64_t lead_steps = 0;  ///< from a command's coming to its hearing: the standby has it by then
+  std::int64_t lease_ns = 0;     ///< a primary silent for so long is gone; wall clock
+};
+
 struct Service {
   std::string name;          ///< default: the host name
   int priority = 80;         ///< SCHED_FIFO, 1 to 99; 0: ordinary scheduling
@@ -116,6 +122,7 @@ struct Scene {
   Telemetry telemetry;
   Budget budget;
   Run run;
+  std::optional<Standby> standby;  ///< none: the scene is for one daemon alone
   Service service;
   Dds dds;
   Log log;

@@ -32,6 +32,8 @@ Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fl
 Budget read_budget(Keys& root, const Simulation& simulation);
 Run read_run(Keys& root);
 Service read_service(Keys& root);
+std::optional<Standby> read_standby(Keys& root, const Simulation& simulation,
+                                    const Service& service);
 Dds read_dds(Keys& root, const std::filesystem::path& file);
 Log read_log(Keys& root);
 

@@ -43,6 +43,7 @@ namespace adstar {
 
 template <class Tableau>
 struct Coadjoint {
+  using Nodes = Tableau;  ///< where torques of time alone are asked, known before the step
   static constexpr int kOrder = Tableau::kOrder;
   static constexpr double kStageReach = 1;
   static constexpr double kSubstepAngleRad = kOrder >= 8   ? 1.5
@@ -159,7 +160,7 @@ struct Coadjoint {
       }
       if constexpr (!Torque::kFree) {
         const T since = h * Tableau::c[I].template as<T>();
-        const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q_n, turn});
+        const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q_n, turn, I});
         k.body_impulse[I] = turn.exp(tau.body);
         k.work[I] = dot(omega_B, tau.body);
         if constexpr (Torque::kInertial) {

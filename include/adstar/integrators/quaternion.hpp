@@ -92,6 +92,7 @@ template <class T>
 
 template <class Tableau, bool Projected>
 struct QuaternionRk {
+  using Nodes = Tableau;  ///< where torques of time alone are asked, known before the step
   static constexpr int kOrder = Tableau::kOrder;
   static constexpr double kStageReach = 1;
   static constexpr double kSubstepAngleRad = kOrder >= 8 ? 1.5 : kOrder >= 5 ? 0.75 : 0.5;
@@ -170,7 +171,7 @@ struct QuaternionRk {
     if constexpr (!Torque::kFree) {
       const T since = h * Tableau::c[I].template as<T>();
       const Rotation<T> none;
-      const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q, none});
+      const TorqueSample<T> tau = torque.function(Stage<T>{since, omega_B, q, none, I});
       Vec3<T> total_B = tau.body;
       k.impulse[I] = rotate(q, tau.body);
       if constexpr (Torque::kInertial) {

@@ -22,6 +22,7 @@ struct Stage {
   Vec3<T> omega_B;          ///< [rad/s]
   const Quat<T>& q_n;       ///< attitude at the beginning
   const Rotation<T>& turn;  ///< since then
+  int number = 0;           ///< of the scheme's Nodes, where it has them
   Quat<T> q_IB() const { return q_n * turn.quaternion(); }
 };
 

@@ -5,10 +5,11 @@
 // A model is one of three kinds, told apart by the member it has:
 //   ramp_from(t_ns)  the torque is linear in time from t to its next edge: torque(t + τ) = start + slope τ
 //   at(t_s)          the torque is smooth in time from t to its next edge, evaluated at every stage; it
-//                    has bound() too (of its norm, for the sub-step guard)
+//                    has bound() too (of its norm, for the sub-step guard) and add_at() of several instants
 //   damping()        the torque is -damping() omega_B per body axis, at every stage [N m s/rad]
 // and every model has next_edge_after(t_ns).
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -25,6 +26,12 @@ inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 template <class T>
 struct Ramp {
   Vec3<T> start, slope;
+};
+
+/// N vectors, component by component.
+template <class T, std::size_t N>
+struct VectorRows {
+  T x[N], y[N], z[N];
 };
 
 /// Integer nanoseconds to seconds, correctly rounded.
