@@ -1,15 +1,18 @@
 #!/usr/bin/env bash
 # Installs what the tests need, builds, and runs them: all in release, then what the sanitizers can judge.
-#   bash tests/run.sh            everything
+#   bash tests/run.sh            everything, but for the schemes' own tests under asan
+#   bash tests/run.sh --long     those too: some twenty minutes more
 #   bash tests/run.sh --quick    release only
 set -euo pipefail
 
 quick=false
+numerics=OFF
 case "${1:-}" in
   "") ;;
   --quick) quick=true ;;
+  --long) numerics=ON ;;
   *)
-    echo "usage: bash tests/run.sh [--quick]" >&2
+    echo "usage: bash tests/run.sh [--quick | --long]" >&2
     exit 2
     ;;
 esac
@@ -45,7 +48,8 @@ without_randomisation() {
 # run_preset PRESET TARGET: configures, builds, and runs what ctest finds.
 run_preset() {
   local preset=$1 target=$2
-  judge "$preset: configure" cmake --preset "$preset" -DADSTAR_BUILD_TESTS=ON || return 0
+  judge "$preset: configure" cmake --preset "$preset" -DADSTAR_BUILD_TESTS=ON \
+    -DADSTAR_SANITIZE_NUMERICS="$numerics" || return 0
   judge "$preset: build" cmake --build "build/$preset" --parallel "$jobs" --target "$target" || return 0
   judge "$preset: tests" without_randomisation \
     ctest --test-dir "build/$preset" --parallel "$jobs" --output-on-failure --no-tests=error || return 0

@@ -23,6 +23,7 @@ authorities=$dir/authorities
 # Every topic of service/dds/topics.hpp: what moves a daemon, and what it says.
 torques=(torque_command)
 clock=(step_request run_control)
+standby=(standby_beat standby_record standby_state)
 telemetry=(command_status attitude_state momentum_state fleet_state service_status step_timing service_roster
   step_reply run_control_status)
 work=$(mktemp -d)
@@ -87,7 +88,7 @@ governance() {
       <liveliness_protection_kind>SIGN</liveliness_protection_kind>
       <rtps_protection_kind>SIGN</rtps_protection_kind>
       <topic_access_rules>
-$(for topic in "${torques[@]}" "${clock[@]}"; do topic_rule "adstar/$topic" SIGN; done)
+$(for topic in "${torques[@]}" "${clock[@]}" "${standby[@]}"; do topic_rule "adstar/$topic" SIGN; done)
 $(topic_rule '*' NONE)
       </topic_access_rules>
     </domain_rule>
@@ -107,7 +108,8 @@ criteria() {  # publish or subscribe, topics...
 
 rules() {  # role
   case "$1" in
-    daemon) criteria publish "${telemetry[@]}"; criteria subscribe "${torques[@]}" "${clock[@]}" "${telemetry[@]}" ;;
+    daemon) criteria publish "${telemetry[@]}" "${standby[@]}"
+      criteria subscribe "${torques[@]}" "${clock[@]}" "${telemetry[@]}" "${standby[@]}" ;;
     operator) criteria publish "${torques[@]}" "${clock[@]}"; criteria subscribe "${torques[@]}" "${clock[@]}" "${telemetry[@]}" ;;
     commander) criteria publish "${torques[@]}"; criteria subscribe "${torques[@]}" "${telemetry[@]}" ;;
     watcher) criteria subscribe "${telemetry[@]}" ;;

@@ -92,6 +92,10 @@ std::string timing_table(const adstar_StepTiming& t) {
       report::counted(t.minor_page_faults), report::counted(t.major_page_faults),
       report::counted(t.involuntary_switches), report::counted(t.most_commands_waiting),
       report::counted(t.most_verdicts_waiting), report::counted(t.most_telemetry_waiting));
+  if (t.phase_disciplined) {
+    text += fmt::format("  beats {} us from the whole periods of the reference clock\n",
+                        microseconds(t.phase_error_ns));
+  }
   text += fmt::format("  in force: FIFO {}, memory lock {}, one processor {}\n",
                       t.fifo_scheduling ? "yes" : "NO", t.memory_locked ? "yes" : "NO",
                       t.cpu_pinned ? "yes" : "no");
@@ -118,6 +122,8 @@ std::string timing_json(const adstar_StepTiming& t) {
   line["missed_beats"] = t.missed_beats;
   line["caught_up_beats"] = t.caught_up_beats;
   line["behind_wall_ns"] = t.behind_wall_ns;
+  line["phase_disciplined"] = t.phase_disciplined;
+  line["phase_error_ns"] = t.phase_error_ns;
   line["minor_page_faults"] = t.minor_page_faults;
   line["major_page_faults"] = t.major_page_faults;
   line["involuntary_switches"] = t.involuntary_switches;

@@ -96,6 +96,9 @@ runtime::TimingRecord Housekeeping::timing(bool stopped) const {
   timing.missed_beats = read(report.missed_beats);
   timing.caught_up_beats = read(report.caught_up_beats);
   timing.behind_ns = report.behind_ns.load(std::memory_order_relaxed);
+  timing.phase_disciplined =
+      scene_.simulation.phase_reference == scene::PhaseReference::none ? 0 : 1;
+  timing.phase_error_ns = report.phase_error_ns.load(std::memory_order_relaxed);
   const runtime::ThreadAccount now = at_end_ ? *at_end_ : runtime::account_of(thread_);
   timing.account = {now.minor_faults - at_start_.minor_faults,
                     now.major_faults - at_start_.major_faults,

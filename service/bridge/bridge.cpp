@@ -187,6 +187,9 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
     write_roster(roster, scene, options);
   }
   OtherServices others(participant, directory, options);
+  if (scene.standby && (reattached || stands_by)) {
+    others.tolerate_namesakes();
+  }
   if (const auto rival = stands_by ? std::nullopt : meet_others(others, *segment, reattached)) {
     const std::string message = conflict_message(*rival, scene.dds);
     spdlog::error("{}", message);

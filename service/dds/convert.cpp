@@ -257,6 +257,8 @@ adstar_StepTiming to_sample(const runtime::TimingRecord& record,
   sample.missed_beats = record.missed_beats;
   sample.caught_up_beats = record.caught_up_beats;
   sample.behind_wall_ns = record.behind_ns;
+  sample.phase_disciplined = record.phase_disciplined != 0;
+  sample.phase_error_ns = record.phase_error_ns;
   sample.minor_page_faults = record.account.minor_faults;
   sample.major_page_faults = record.account.major_faults;
   sample.involuntary_switches = record.account.involuntary_switches;

@@ -6,6 +6,7 @@
 // comes a period late or more is behind: beats beyond those that may be caught up are missed. They are
 // counted, the grid keeps its phase, and simulation time falls behind the wall's.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -59,6 +60,23 @@ inline std::uint64_t realign(BeatClock& clock, std::uint64_t n, std::int64_t now
 /// Beat n is due now, and the others around it: the clock stood still, and nothing was missed.
 inline void restart(BeatClock& clock, std::uint64_t n, std::int64_t now_ns) {
   clock.base_ns += now_ns - due_ns(clock, n);
+}
+
+/// How far beat n comes after the nearest whole period of a reference clock, which shows `offset_ns` more than
+/// the monotonic one: within half a period of zero.
+inline std::int64_t phase_error_ns(const BeatClock& clock, std::uint64_t n,
+                                   std::int64_t offset_ns) {
+  const std::int64_t period = beats_to_ns(clock, 1);
+  std::int64_t phase = (due_ns(clock, n) + offset_ns) % period;
+  phase += phase < 0 ? period : 0;
+  return phase > period / 2 ? phase - period : phase;
+}
+
+/// Moves the grid against that error, an eighth of it and at most a thousandth of a period: a reference that jumps
+/// makes beats run towards it, never jump.
+inline void steer(BeatClock& clock, std::int64_t error_ns) {
+  const std::int64_t most = std::max<std::int64_t>(1, beats_to_ns(clock, 1) / 1000);
+  clock.base_ns -= std::clamp(error_ns / 8, -most, most);
 }
 
 }  // namespace adstar::runtime

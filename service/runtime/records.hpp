@@ -188,7 +188,9 @@ struct TimingRecord {
   std::uint64_t overruns = 0;
   std::uint64_t missed_beats = 0;
   std::uint64_t caught_up_beats = 0;
-  std::int64_t behind_ns = 0;  ///< of the wall clock, now
+  std::int64_t behind_ns = 0;           ///< of the wall clock, now
+  std::uint64_t phase_disciplined = 0;  ///< 1: by the clock that the scene names
+  std::int64_t phase_error_ns = 0;      ///< of the beats on it, now
   TickAccount account;
   std::uint64_t fifo_scheduling = 0;
   std::uint64_t memory_locked = 0;

@@ -23,6 +23,7 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
           step_ns_)),
       pace_(scene.simulation.pace),
       rate_(scene.simulation.rate),
+      phase_reference_(scene.simulation.phase_reference),
       telemetry_(scene.telemetry),
       on_overrun_(scene.budget.on_overrun),
       catch_up_beats_(on_overrun_ == scene::Overrun::catch_up
@@ -91,6 +92,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
 
 /// Sleeps until beat n is due, unless it is already; returns when it began.
 std::int64_t Tick::await_beat(BeatClock& clock, std::uint64_t n, std::int64_t ended_ns) noexcept {
+  keep_phase(clock, n);
   const std::int64_t due = due_ns(clock, n);
   const bool slept = ended_ns < due;
   std::int64_t begun = ended_ns;
@@ -105,6 +107,17 @@ std::int64_t Tick::await_beat(BeatClock& clock, std::uint64_t n, std::int64_t en
   }
   catch_up_or_skip(clock, n, begun);
   return begun;
+}
+
+void Tick::keep_phase(BeatClock& clock, std::uint64_t n) noexcept {
+  if (phase_reference_ == scene::PhaseReference::none) {
+    return;
+  }
+  const clockid_t reference =
+      phase_reference_ == scene::PhaseReference::tai ? CLOCK_TAI : CLOCK_REALTIME;
+  const std::int64_t error = phase_error_ns(clock, n, offset_of(reference));
+  report_.phase_error_ns.store(error, std::memory_order_relaxed);
+  steer(clock, error);
 }
 
 void Tick::catch_up_or_skip(BeatClock& clock, std::uint64_t n, std::int64_t begun_ns) noexcept {

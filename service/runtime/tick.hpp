@@ -40,6 +40,7 @@ struct TickReport {
   std::atomic<std::uint64_t> missed_beats{0};
   std::atomic<std::uint64_t> caught_up_beats{0};
   std::atomic<std::int64_t> behind_ns{0};
+  std::atomic<std::int64_t> phase_error_ns{0};  ///< of the beats on the reference clock
   std::atomic<std::uint64_t> most_commands{0};
   std::atomic<std::uint64_t> most_verdicts{0};
   std::atomic<std::uint64_t> most_telemetry{0};
@@ -120,6 +121,7 @@ class Tick {
 
   // tick.cpp: beats
   std::int64_t await_beat(BeatClock& clock, std::uint64_t n, std::int64_t ended_ns) noexcept;
+  void keep_phase(BeatClock& clock, std::uint64_t n) noexcept;
   void catch_up_or_skip(BeatClock& clock, std::uint64_t n, std::int64_t begun_ns) noexcept;
   BeatTimes beat(std::uint64_t n, std::int64_t begun_ns) noexcept;
   void reached(std::uint64_t step) noexcept;
@@ -161,6 +163,7 @@ class Tick {
   std::uint64_t last_step_;  ///< of the scene's duration, or of what 63 bits of nanoseconds hold
   scene::Pace pace_;
   double rate_;
+  scene::PhaseReference phase_reference_;
   scene::Telemetry telemetry_;
   scene::Overrun on_overrun_;
   std::uint64_t catch_up_beats_;                 ///< 0 unless they are to be caught up

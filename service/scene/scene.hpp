@@ -25,6 +25,13 @@ enum class Pace {
   lockstep  ///< a step for every one that a StepRequest asks for
 };
 
+/// Whose whole periods the beats fall on.
+enum class PhaseReference {
+  none,      ///< they begin when the daemon does
+  realtime,  ///< CLOCK_REALTIME, as NTP or PTP keeps it
+  tai        ///< CLOCK_TAI: no leap seconds, where the system knows how many there were
+};
+
 /// "clock", "free", "lockstep"
 const char* name_of(Pace pace);
 
@@ -33,6 +40,7 @@ struct Simulation {
   std::string scheme = "coadjoint_rk4";
   std::optional<std::int64_t> duration_ns;  ///< whole steps; none: endless
   Pace pace = Pace::clock;
+  PhaseReference phase_reference = PhaseReference::none;
   double rate = 1.0;  ///< simulated seconds per second of wall clock
   /// Under Pace::lockstep: a silence of the requesters worth a warning; none: never.
   std::optional<std::int64_t> lockstep_timeout_ns = 10'000'000'000;
@@ -93,8 +101,9 @@ struct Run {
 
 /// A second daemon that goes on when this one is gone.
 struct Standby {
-  std::uint64_t lead_steps = 0;  ///< from a command's coming to its hearing: the standby has it by then
-  std::int64_t lease_ns = 0;     ///< a primary silent for so long is gone; wall clock
+  std::uint64_t lead_steps =
+      0;  ///< from a command's coming to its hearing: the standby has it by then
+  std::int64_t lease_ns = 0;  ///< a primary silent for so long is gone; wall clock
 };
 
 struct Service {

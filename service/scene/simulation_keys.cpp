@@ -60,6 +60,19 @@ void read_rate(const Value& value, Simulation& simulation) {
   simulation.rate = rate.value_or(simulation.rate);
 }
 
+/// A grid of whole nanoseconds on a clock that stands for the time of day: neither free of it nor faster.
+void read_phase_reference(const Value& value, Simulation& simulation) {
+  constexpr std::array<std::string_view, 3> kReferences{"none", "realtime", "tai"};
+  simulation.phase_reference =
+      static_cast<PhaseReference>(read_choice(value, kReferences).value_or(0));
+  if (simulation.phase_reference == PhaseReference::none) {
+    return;
+  }
+  if (simulation.pace != Pace::clock || simulation.rate != 1.0) {
+    value.refuse("no phase_reference but beside pace = \"clock\" and rate = 1.0", "removing it");
+  }
+}
+
 void read_epochs(Keys& keys, Simulation& simulation) {
   const Value utc = keys.optional("epoch_utc");
   const Value tai = keys.optional("epoch_tai");
@@ -103,6 +116,7 @@ SimulationSection read_simulation(Keys& root) {
   simulation.pace = read_pace(keys.optional("pace"));
   read_lockstep_timeout(keys.optional("lockstep_timeout"), simulation);
   read_rate(keys.optional("rate"), simulation);
+  read_phase_reference(keys.optional("phase_reference"), simulation);
   read_epochs(keys, simulation);
   simulation.accuracy_rad =
       read_positive(keys.optional("accuracy_rad"), {"an angle above 0 rad", "1e-6"});

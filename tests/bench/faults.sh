@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Injects one fault after the other into a 1 kHz run and prints what came of each, as a Markdown table.
 #   bash tests/bench/faults.sh [--write] [build/release] [faults...]     --write: into service/README.md
-# Builds nothing: cmake --build build/release --target adstard adstar-bridge adstar fault_tool wild_commander
+# Builds nothing: cmake --build build/release --target adstar_tests fault_tool
 #
 # A fault is a function fault_NAME: it is called once the daemon flies, with $daemon its pid, and ends by itself or is
-# ended with the run. Its line what="..." is what the table calls it.
+# ended with the run. Its line what="..." is what the table calls it. The second table is of faults of the daemon itself: the tests
+# that inject them say what came of it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -117,11 +118,29 @@ table() {
   done
 }
 
+falls=10
+# What a test that passed says in its last line but gtest's.
+said_by() {  # program, filter
+  ADSTAR_KILLS=$falls "$bin/tests/integration/$1" --gtest_filter="$2" > "$work/$1.out" 2>&1 || { echo "FAILED"; return 0; }
+  sed -n '/kills[,;]/,/same bits/p' "$work/$1.out" | paste -sd ' ' | sed -E 's/^[0-9]+ kills[,;] //'
+}
+falls_table() {
+  echo
+  echo "| fault of the daemon | what came of it |"
+  echo "|---|---|"
+  echo "| killed (SIGKILL) $falls times, resumed each time | $(said_by kill_resume_test '*killed_at_any_moment*') |"
+  echo "| killed (SIGKILL) $falls times under a standby, 200 Hz | $(said_by standby_test '*primary_is_killed') |"
+  echo "| network between primary and standby split, healed | $(bash tests/integration/standby_split.sh "$bin" | tail -n 1) |"
+}
+
 faults=("$@")
 if [[ ${#faults[@]} -eq 0 ]]; then
   faults=(none bridge_killed bridge_aborted bridge_stopped flood datagrams long_strings deaf_subscriber none)
 fi
-table "${faults[@]}" | tee "$work/table"
+{
+  table "${faults[@]}"
+  if [[ $# -eq 0 ]]; then falls_table; fi
+} | tee "$work/table"
 
 if [[ $write == true ]]; then
   sed -i -e '/<!-- faults: begin -->/,/<!-- faults: end -->/{//!d}' -e "/<!-- faults: begin -->/r $work/table" \

@@ -229,6 +229,37 @@ TEST(Standby, a_primary_that_stood_still_gives_way_to_whoever_took_over) {
   EXPECT_EQ(standby.stop(), 0) << standby.log();
 }
 
+TEST(Standby, a_primary_whose_commands_were_waiting_is_resumed_with_the_bits_it_would_have_had) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const auto run = home.path() / "a";
+  GroundStation ground(corner);
+  Listener listener;
+  ground.on_momentum = [&](const adstar_MomentumState& s) { listener.hear(s); };
+  auto daemon =
+      std::make_unique<Daemon>(pair_scene(corner), std::vector<std::string>{"--run", run.string()});
+  ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << daemon->log();
+  for (int kills = 0; kills < 3; ++kills) {
+    for (int left = 0; left < 8; ++left) {  // not waited for
+      auto command = ground.command("sat1", {1e-3 * left, 2e-3, 0});
+      command.duration_ns = 70'000'000;
+      ground.write(command);
+    }
+    const auto wanted = ground.momentum_samples + 3;
+    ASSERT_TRUE(ground.until([&] { return ground.momentum_samples >= wanted; }));
+    daemon->signal(SIGKILL);
+    ASSERT_EQ(daemon->exit_code(), -SIGKILL);
+    const std::uint64_t newest = ground.momentum["sat1"].step;
+    daemon = Daemon::resuming(run);
+    ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > newest + 20; }))
+        << daemon->log();
+  }
+  ASSERT_EQ(daemon->stop(), 0) << daemon->log();
+  testing::Process replay({ADSTAR, "replay", run.string()});
+  EXPECT_EQ(replay.wait(std::chrono::seconds(120)), 0) << replay.out() << replay.err();
+  EXPECT_NE(replay.out().find("same bits"), std::string::npos) << replay.out();
+}
+
 TEST(Standby, says_what_is_missing_or_does_not_go_together) {
   const auto corner = testing::private_corner();
   const TemporaryDirectory home;

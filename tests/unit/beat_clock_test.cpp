@@ -115,5 +115,39 @@ TEST(BeatClock, is_on_time_again_right_after_it_realigned) {
   }
 }
 
+TEST(BeatPhase, is_the_distance_to_the_nearest_whole_period_of_the_reference) {
+  const BeatClock clock = make_beat_clock(1'000 * kMs, kMs, 1.0);
+  EXPECT_EQ(phase_error_ns(clock, 7, 0), 0);
+  EXPECT_EQ(phase_error_ns(clock, 7, 300), 300);
+  EXPECT_EQ(phase_error_ns(clock, 7, -300), -300);
+  EXPECT_EQ(phase_error_ns(clock, 7, 1'795'000'000'123'456'789), 456'789);
+  EXPECT_EQ(phase_error_ns(clock, 7, -2'000'000 * kMs - 1), -1);
+}
+
+TEST(BeatPhase, is_brought_to_zero_without_a_jump_and_stays_there) {
+  for (const std::int64_t offset :
+       {499'999LL, -499'999LL, 12'345LL, -1'795'000'000'000'400'000LL}) {
+    BeatClock clock = make_beat_clock(kBase, kMs, 1.0);
+    std::int64_t before = due_ns(clock, 0);
+    for (std::uint64_t n = 1; n < 2'000; ++n) {
+      steer(clock, phase_error_ns(clock, n, offset));
+      ASSERT_LE(std::abs(due_ns(clock, n) - before - kMs), kMs / 1000) << "a jump at beat " << n;
+      before = due_ns(clock, n);
+    }
+    EXPECT_LT(std::abs(phase_error_ns(clock, 2'000, offset)), 8) << offset;
+  }
+}
+
+TEST(BeatPhase, follows_a_reference_that_runs_fast) {
+  BeatClock clock = make_beat_clock(kBase, kMs, 1.0);
+  for (std::uint64_t n = 1; n < 100'000; ++n) {
+    const std::int64_t offset = 77 + static_cast<std::int64_t>(n) * 50;  // 50 ppm
+    steer(clock, phase_error_ns(clock, n, offset));
+    if (n > 5'000) {
+      ASSERT_LT(std::abs(phase_error_ns(clock, n, offset)), 500) << n;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace adstar::runtime

@@ -156,6 +156,8 @@ TEST(DdsConvert, timing_keeps_every_part_of_a_beat_apart) {
   }
   record.late_after_sleep = 3;
   record.behind_ns = -5;
+  record.phase_disciplined = 1;
+  record.phase_error_ns = -7;
   record.account = {1, 2, 4, 1ULL << 40, 6, 7};
   const adstar_StepTiming sample = to_sample(record, "fly");
   EXPECT_EQ(sample.wake_up_lateness.took.p50_ns, 10);
@@ -164,6 +166,8 @@ TEST(DdsConvert, timing_keeps_every_part_of_a_beat_apart) {
   EXPECT_EQ(sample.hand_over_phase.over_budget, 10U);
   EXPECT_EQ(sample.late_after_sleep, 3U);
   EXPECT_EQ(sample.behind_wall_ns, -5);
+  EXPECT_TRUE(sample.phase_disciplined);
+  EXPECT_EQ(sample.phase_error_ns, -7);
   EXPECT_EQ(sample.major_page_faults, 2U);
   EXPECT_EQ(sample.involuntary_switches, 4U);
   EXPECT_EQ(sample.most_commands_waiting, std::numeric_limits<std::uint32_t>::max());

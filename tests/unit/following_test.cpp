@@ -149,9 +149,12 @@ TEST(Following, what_cannot_be_told_is_refused) {
   scene.simulation.pace = scene::Pace::lockstep;
   Running primary(scene);
   constexpr std::uint64_t kRoom = decltype(StandbyLink::relayed)::kCapacity;
-  std::vector<VerdictRecord> verdicts;
   for (std::uint64_t sequence = 1; sequence <= kRoom + 1; ++sequence) {
-    ASSERT_TRUE(wait_for([&] { return primary.segment->commands.push(command(sequence, 0.1)); }));
+    bool pushed = false;
+    ASSERT_TRUE(wait_for([&] {
+      pushed = pushed || primary.segment->commands.push(command(sequence, 0.1));
+      return pushed;
+    }));
     wake_tick(*primary.segment);
   }
   ASSERT_TRUE(wait_for([&] { return primary.segment->verdicts.size() > 0; }));
