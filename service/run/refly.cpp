@@ -118,6 +118,15 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
     }
     if (const auto checkpoint = checkpoints.find(stop); checkpoint != checkpoints.end()) {
       ++result.checkpoints;
+      // One written when the run was gone on with has heard the commands of its beat.
+      const auto known = static_cast<std::size_t>(
+          std::count_if(left.begin(), left.end(), [&](const runtime::JournalRecord& record) {
+            return record.number < checkpoint->second.next_number;
+          }));
+      const std::size_t heard = hear(flight, left.first(known));
+      left = left.subspan(heard);
+      result.heard += heard;
+      verdicts->skip_all();
       if (const std::string what = difference(checkpoint->second, states, gate, scene);
           !what.empty()) {
         result.differs_at = stop;
