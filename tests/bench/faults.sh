@@ -122,7 +122,7 @@ falls=10
 # What a test that passed says in its last line but gtest's.
 said_by() {  # program, filter
   ADSTAR_KILLS=$falls "$bin/tests/integration/$1" --gtest_filter="$2" > "$work/$1.out" 2>&1 || { echo "FAILED"; return 0; }
-  sed -n '/kills[,;]/,/same bits/p' "$work/$1.out" | paste -sd ' ' | sed -E 's/^[0-9]+ kills[,;] //'
+  grep -E 'kills[,;]|^same bits' "$work/$1.out" | paste -sd ' ' | sed -E 's/^[0-9]+ kills[,;] //'
 }
 falls_table() {
   echo
@@ -130,7 +130,7 @@ falls_table() {
   echo "|---|---|"
   echo "| killed (SIGKILL) $falls times, resumed each time | $(said_by kill_resume_test '*killed_at_any_moment*') |"
   echo "| killed (SIGKILL) $falls times under a standby, 200 Hz | $(said_by standby_test '*primary_is_killed') |"
-  echo "| network between primary and standby split, healed | $(bash tests/integration/standby_split.sh "$bin" | tail -n 1) |"
+  echo "| network between primary and standby split, healed | $(bash tests/integration/standby_split.sh "$bin" | tail -n 1 | sed -E 's/^ *[0-9]+ ms +//') |"
 }
 
 faults=("$@")
