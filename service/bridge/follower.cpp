@@ -21,6 +21,7 @@ dds::Qos with_lease(dds::Qos qos, std::int64_t lease_ns) {
 }
 
 constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::size_t kMostWaiting = 65'536;
 
 std::int64_t monotonic_ns() {
   timespec now{};
@@ -69,7 +70,7 @@ bool Follower::primary_is_gone() {
     primary_.reset();
     return false;
   }
-  return link_.lost_track.load() == 0;
+  return link_.lost_track.load() == 0 && waiting_.empty();
 }
 
 void Follower::hear_beats() {
@@ -118,6 +119,10 @@ void Follower::hear_records() {
     }
   };
   while (records_.take(hear) > 0) {}
+  // Before there is a state they only wait for one: the oldest are in the next checkpoint.
+  while (link_.following.load() == 0 && waiting_.size() > kMostWaiting) {
+    waiting_.pop_front();
+  }
 }
 
 void Follower::hear_states() {
