@@ -93,8 +93,8 @@ std::string timing_table(const adstar_StepTiming& t) {
       report::counted(t.involuntary_switches), report::counted(t.most_commands_waiting),
       report::counted(t.most_verdicts_waiting), report::counted(t.most_telemetry_waiting));
   if (t.phase_disciplined) {
-    text += fmt::format("  beats {} us from the whole periods of the reference clock\n",
-                        microseconds(t.phase_error_ns));
+    text += fmt::format("  beats {} ns from the whole periods of the reference clock\n",
+                        t.phase_error_ns);
   }
   text += fmt::format("  in force: FIFO {}, memory lock {}, one processor {}\n",
                       t.fifo_scheduling ? "yes" : "NO", t.memory_locked ? "yes" : "NO",

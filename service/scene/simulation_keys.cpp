@@ -69,7 +69,7 @@ void read_phase_reference(const Value& value, Simulation& simulation) {
     return;
   }
   if (simulation.pace != Pace::clock || simulation.rate != 1.0) {
-    value.refuse("no phase_reference but beside pace = \"clock\" and rate = 1.0", "removing it");
+    value.refuse("phase_reference only beside pace = \"clock\" and rate = 1.0", "removing it");
   }
 }
 

@@ -133,6 +133,22 @@ TEST(SceneLoader, reads_every_key_of_the_simulation) {
             std::nullopt);
 }
 
+TEST(SceneLoader, reads_whose_periods_the_beats_fall_on) {
+  const auto simulation = [](const std::string& more) {
+    return "[simulation]\nstep = \"1ms\"\n" + more + "\n" + kSpacecraft;
+  };
+  const auto reference = [&](const std::string& more) {
+    return parse(simulation(more), "scene.toml").simulation.phase_reference;
+  };
+  EXPECT_EQ(reference(""), PhaseReference::none);
+  EXPECT_EQ(reference("phase_reference = \"realtime\""), PhaseReference::realtime);
+  EXPECT_EQ(reference("phase_reference = \"tai\""), PhaseReference::tai);
+  EXPECT_EQ(
+      refusal(simulation("rate = 2.0\nphase_reference = \"tai\"")),
+      "scene.toml:4:19: simulation.phase_reference: got \"tai\", expected phase_reference only "
+      "beside pace = \"clock\" and rate = 1.0; try removing it");
+}
+
 TEST(SceneLoader, knows_every_scheme_of_the_core) {
   for (const std::string_view name : scheme_names()) {
     EXPECT_EQ(parse(in_simulation("scheme = \"" + std::string(name) + '"'), "").simulation.scheme,
