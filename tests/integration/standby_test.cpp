@@ -260,6 +260,42 @@ TEST(Standby, a_primary_whose_commands_were_waiting_is_resumed_with_the_bits_it_
   EXPECT_NE(replay.out().find("same bits"), std::string::npos) << replay.out();
 }
 
+TEST(Standby, takes_over_though_its_own_bridge_fell_while_it_followed) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const std::string scene = pair_scene(corner);
+  GroundStation ground(corner);
+  Listener listener;
+  ground.on_momentum = [&](const adstar_MomentumState& s) { listener.hear(s); };
+  Daemon primary(scene, {"--run", (home.path() / "a").string()});
+  ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << primary.log();
+  Daemon standby(scene, {"--run", (home.path() / "b").string(), "--standby"});
+  ASSERT_TRUE(ground.until([&] { return says(standby, "follows from step"); })) << standby.log();
+  kill(standby.bridge(), SIGKILL);
+  auto command = ground.command("sat1", {0.01, 0, 0.02});  // told while nobody listens
+  command.duration_ns = 50'000'000;
+  ASSERT_TRUE(ground.send(command).has_value());
+  const auto follows_again = [&] {
+    const std::string log = standby.log();
+    const auto first = log.find("follows the primary");
+    return log.find("follows the primary", first + 1) != std::string::npos;
+  };
+  ASSERT_TRUE(ground.until(follows_again)) << standby.log();
+  const auto wanted = ground.momentum_samples + 100;
+  ASSERT_TRUE(ground.until([&] { return ground.momentum_samples >= wanted; }));
+  primary.signal(SIGKILL);
+  ASSERT_EQ(primary.exit_code(), -SIGKILL);
+  const std::uint64_t newest = ground.momentum["sat1"].step;
+  ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > newest + 50; }))
+      << standby.log();
+  EXPECT_EQ(standby.stop(), 0) << standby.log();
+  std::uint64_t expected = listener.heard().begin()->first;
+  for (const auto& [step, bits] : listener.heard()) {
+    EXPECT_EQ(step, expected);
+    expected = step + 1;
+  }
+}
+
 TEST(Standby, says_what_is_missing_or_does_not_go_together) {
   const auto corner = testing::private_corner();
   const TemporaryDirectory home;
