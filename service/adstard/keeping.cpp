@@ -44,19 +44,19 @@ Plan make_plan(Options options) {
 
 void begin_run(Plan& plan, const Options& options) {
   const std::string directory = options.run.empty() ? plan.scene.run.directory : options.run;
-  if (!plan.run && !directory.empty()) {
-    plan.run = run::RunDirectory::create(
-        directory, {random_word(), plan.text, plan.file, options.service, options.duration});
+  if (options.standby && !plan.scene.standby) {
+    throw run::RunError(
+        fmt::format("--standby: {} has no [standby]; add one, for both daemons", plan.file));
   }
-  if (plan.scene.standby && !plan.run) {
+  if (plan.scene.standby && !plan.run && directory.empty()) {
     throw run::RunError(
         "a scene with [standby] needs a run on disk, from which a standby gets its state; add "
         "--run "
         "DIRECTORY");
   }
-  if (options.standby && !plan.scene.standby) {
-    throw run::RunError(
-        fmt::format("--standby: {} has no [standby]; add one, for both daemons", plan.file));
+  if (!plan.run && !directory.empty()) {
+    plan.run = run::RunDirectory::create(
+        directory, {random_word(), plan.text, plan.file, options.service, options.duration});
   }
 }
 

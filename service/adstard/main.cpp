@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "service/adstard/bridge_care.hpp"
 #include "service/adstard/bridge_process.hpp"
-#include "service/adstard/bridge_pulse.hpp"
 #include "service/adstard/housekeeping.hpp"
 #include "service/adstard/keeping.hpp"
 #include "service/adstard/options.hpp"
@@ -123,9 +123,10 @@ int await_bridge(BridgeProcess& bridge, const runtime::SharedSegment& segment,
   }
 }
 
-/// A standby's: waits for the state of its primary. Nothing when a signal came first, or the bridge fell
-/// beyond help.
-std::optional<run::Checkpoint> await_state(BridgeProcess& bridge, runtime::MappedSegment& segment,
+/// A standby's: waits for the state of its primary, which may not be there yet. Nothing when a signal came
+/// first.
+std::optional<run::Checkpoint> await_state(BridgeCare& care, const BridgeProcess& bridge,
+                                           const runtime::MappedSegment& segment,
                                            Housekeeping& housekeeping, const Plan& plan,
                                            const sigset_t& signals) {
   spdlog::info("a standby of '{}': waits for its primary", plan.scene.service.name);
@@ -135,10 +136,7 @@ std::optional<run::Checkpoint> await_state(BridgeProcess& bridge, runtime::Mappe
       return std::nullopt;
     }
     const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
-    if (!bridge.alive()) {
-      segment.restore_header();
-      bridge.restart_when_due(now);
-    }
+    care.look(now);
     if (now >= next_look) {
       housekeeping.look(bridge.restarts(), {}, false);
       next_look = now + kLookPeriod;
@@ -195,8 +193,9 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
     return code;
   }
   log_start(scene);
+  BridgeCare care(bridge, segment, clock_ns(CLOCK_MONOTONIC));
   if (options.standby) {
-    const auto state = await_state(bridge, segment, housekeeping, plan, signals);
+    const auto state = await_state(care, bridge, segment, housekeeping, plan, signals);
     if (!state) {
       segment->stop_requested.store(1);
       bridge.finish(kBridgePatienceMs);
@@ -228,9 +227,6 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   }
   housekeeping.watch_thread(real_time.thread);
 
-  BridgePulse pulse;
-  pulse.begin(segment->bridge_rounds.load(), clock_ns(CLOCK_MONOTONIC));
-  bool bridge_was_alive = true;
   std::int64_t next_look = 0;
   int exit_code = kDone;
   StandbyWatch standby_watch(*segment);
@@ -245,21 +241,7 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
       stop.store(true);
     }
     const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
-    const bool bridge_is_alive = bridge.alive();
-    if (!bridge_is_alive && bridge_was_alive) {
-      spdlog::warn("the bridge {}; the tick goes on, the bridge is started again", bridge.how());
-    }
-    bridge_was_alive = bridge_is_alive;
-    if (!bridge_is_alive) {
-      segment.restore_header();
-      bridge_was_alive = bridge.restart_when_due(now);
-      pulse.begin(segment->bridge_rounds.load(), now);
-    } else if (pulse.silent(segment->bridge_rounds.load(), now)) {
-      spdlog::warn("the bridge has done nothing for {} and is killed",
-                   scene::format_duration(pulse.silent_ns() / kSecond * kSecond));
-      bridge.kill_now();
-      pulse.begin(segment->bridge_rounds.load(), now);
-    }
+    care.look(now);
     if (now >= next_look) {
       housekeeping.look(bridge.restarts(), keeping->newest_hash(), false);
       next_look = now + kLookPeriod;

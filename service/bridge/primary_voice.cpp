@@ -1,7 +1,6 @@
 #include "service/bridge/primary_voice.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include <spdlog/spdlog.h>
 
@@ -13,11 +12,6 @@ namespace {
 
 constexpr std::size_t kPartBytes = 32'768;
 
-dds::Qos with_lease(dds::Qos qos, std::int64_t lease_ns) {
-  qos.lease_ns = lease_ns;
-  return qos;
-}
-
 adstar_StandbyRecord to_sample(const runtime::JournalRecord& record, const Options& options) {
   adstar_StandbyRecord sample{
       options.instance.high, options.instance.low, record.number, record.step, {}};
@@ -28,20 +22,14 @@ adstar_StandbyRecord to_sample(const runtime::JournalRecord& record, const Optio
 
 }  // namespace
 
-bool goes_before(const Claim& a, const Claim& b) noexcept {
-  return a.term != b.term ? a.term > b.term
-                          : std::tie(a.instance.high, a.instance.low) <
-                                std::tie(b.instance.high, b.instance.low);
-}
-
 PrimaryVoice::PrimaryVoice(const dds::Participant& participant, runtime::SharedSegment& segment,
                            const scene::Standby& standby, const Options& options)
     : link_(segment.standby),
       options_(options),
       records_(participant),
-      beats_(participant, with_lease(dds::kBeats, standby.lease_ns)),
+      beats_(participant, dds::with_lease(dds::kBeats, standby.lease_ns)),
       states_(participant),
-      others_(participant, with_lease(dds::kBeats, standby.lease_ns)),
+      others_(participant, dds::with_lease(dds::kBeats, standby.lease_ns)),
       checkpoints_(options.run) {}
 
 void PrimaryVoice::speak() {
@@ -99,7 +87,8 @@ void PrimaryVoice::look_around() {
 }
 
 bool PrimaryVoice::wait_for_readers(std::chrono::nanoseconds timeout) {
-  return beats_.wait_for_acks(timeout);
+  const bool records = records_.wait_for_acks(timeout);
+  return beats_.wait_for_acks(timeout) && records;
 }
 
 }  // namespace adstar::bridge

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "service/bridge/claim.hpp"
 #include "service/bridge/options.hpp"
 #include "service/bridge/standby_checkpoints.hpp"
 #include "service/dds/reader.hpp"
@@ -12,14 +13,6 @@
 #include "service/scene/scene.hpp"
 
 namespace adstar::bridge {
-
-/// A term, and the process that flies in it: the higher term goes before, of equal ones the lower
-/// process.
-struct Claim {
-  std::uint64_t term = 0;
-  runtime::CommanderId instance;
-};
-bool goes_before(const Claim& a, const Claim& b) noexcept;
 
 class PrimaryVoice {
  public:
@@ -32,7 +25,7 @@ class PrimaryVoice {
   /// Once in a while: a checkpoint that is new; whoever flies in a higher term.
   void look_around();
 
-  /// Gives a standby a moment to have it all.
+  /// Gives standbys a moment to have it all.
   bool wait_for_readers(std::chrono::nanoseconds timeout);
 
  private:

@@ -107,13 +107,18 @@ void Publisher::say(const runtime::VerdictRecord& record) {
   ++counts_.verdicts;
 }
 
+/// Keys that it never wrote are another's, and not its to unregister.
 void Publisher::rename(std::string_view service) {
-  adstar_ServiceStatus old_status{};
-  dds::set_text(old_status.service, service_);
-  status_.unregister_instance(old_status);
-  adstar_StepTiming old_timing{};
-  dds::set_text(old_timing.service, service_);
-  timing_.unregister_instance(old_timing);
+  if (status_seen_ > 0) {
+    adstar_ServiceStatus status{};
+    dds::set_text(status.service, service_);
+    status_.unregister_instance(status);
+  }
+  if (timing_seen_ > 0) {
+    adstar_StepTiming timing{};
+    dds::set_text(timing.service, service_);
+    timing_.unregister_instance(timing);
+  }
   service_ = service;
   facts_.service = service_;
 }

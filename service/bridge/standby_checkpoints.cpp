@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "service/run/files.hpp"
-#include "service/run/run_directory.hpp"
 
 namespace adstar::bridge {
 namespace {
@@ -15,8 +14,10 @@ constexpr std::uint32_t kMostParts = 16'384;
 
 std::optional<NumberedBytes> CheckpointWatch::newer() {
   try {
-    const auto directory = run::RunDirectory::open(run_, run::RunDirectory::Use::look);
-    const auto files = directory.checkpoints();
+    if (!directory_) {
+      directory_ = run::RunDirectory::open(run_, run::RunDirectory::Use::look);
+    }
+    const auto files = directory_->checkpoints();
     if (files.empty() || files.front().number == seen_) {
       return std::nullopt;
     }
@@ -28,9 +29,9 @@ std::optional<NumberedBytes> CheckpointWatch::newer() {
   }
 }
 
-std::optional<NumberedBytes> CheckpointParts::add(std::uint64_t checkpoint, std::uint32_t part,
-                                                  std::uint32_t parts,
-                                                  std::span<const std::uint8_t> bytes) {
+std::optional<run::Bytes> CheckpointParts::add(std::uint64_t checkpoint, std::uint32_t part,
+                                               std::uint32_t parts,
+                                               std::span<const std::uint8_t> bytes) {
   if (checkpoint < checkpoint_ || parts > kMostParts || part >= parts) {
     return std::nullopt;
   }
@@ -40,12 +41,12 @@ std::optional<NumberedBytes> CheckpointParts::add(std::uint64_t checkpoint, std:
   }
   const auto raw = std::as_bytes(bytes);
   parts_[part].emplace(raw.begin(), raw.end());
-  NumberedBytes whole{checkpoint, {}};
+  run::Bytes whole;
   for (const auto& each : parts_) {
     if (!each) {
       return std::nullopt;
     }
-    whole.bytes.insert(whole.bytes.end(), each->begin(), each->end());
+    whole.insert(whole.end(), each->begin(), each->end());
   }
   return whole;
 }

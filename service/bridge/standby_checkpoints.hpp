@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "service/run/bytes.hpp"
+#include "service/run/run_directory.hpp"
 
 namespace adstar::bridge {
 
@@ -26,6 +27,7 @@ class CheckpointWatch {
 
  private:
   std::string run_;
+  std::optional<run::RunDirectory> directory_;
   std::uint64_t seen_ = 0;
 };
 
@@ -33,8 +35,8 @@ class CheckpointWatch {
 class CheckpointParts {
  public:
   /// The whole, with the part that completes it.
-  std::optional<NumberedBytes> add(std::uint64_t checkpoint, std::uint32_t part,
-                                   std::uint32_t parts, std::span<const std::uint8_t> bytes);
+  std::optional<run::Bytes> add(std::uint64_t checkpoint, std::uint32_t part, std::uint32_t parts,
+                                std::span<const std::uint8_t> bytes);
 
  private:
   std::uint64_t checkpoint_ = 0;

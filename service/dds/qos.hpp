@@ -23,6 +23,12 @@ struct Qos {
   std::int64_t lease_ns = 0;
 };
 
+/// The same, with liveliness asserted by writing alone.
+inline Qos with_lease(Qos qos, std::int64_t lease_ns) {
+  qos.lease_ns = lease_ns;
+  return qos;
+}
+
 using QosHandle = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 /// max_blocking_time is 0: no write ever waits.

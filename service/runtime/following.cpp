@@ -11,7 +11,7 @@ namespace adstar::runtime {
 
 /// It is heard `lead_` beats from now, here and there.
 void Tick::hold(const CommandRecord& command, const Beat& now) noexcept {
-  const bool has_room = held_.has_room() && segment_->standby.relayed.has_room() &&
+  const bool has_room = held_.size() < kMostHeld && segment_->standby.relayed.has_room() &&
                         (journal_ == nullptr || journal_->has_room());
   if (!has_room) {
     gate_.refuse(command, now, Reason::not_recorded);
@@ -53,25 +53,42 @@ std::optional<std::int64_t> Tick::follow(const std::atomic<bool>& stop) noexcept
     const std::uint32_t seen = segment_->push_count.load(std::memory_order_seq_cst);
     // Read before the rings: the bridge asks for it only after its last push.
     const bool gone = link.take_over.load(std::memory_order_acquire) != 0;
-    take_followed();
     link.primary_beat.read(primary);
-    // A command may still be on its way: no beat before its record is here.
-    while (step() < std::min(primary.step, last_step_) && next_number_ >= primary.next_number &&
-           !stop.load(std::memory_order_relaxed)) {
-      follow_beat();
-      take_followed();
+    follow_to(primary, stop);
+    if (gone && link.followed.size() > 0) {
+      link.lost_track.store(1, std::memory_order_relaxed);  // the journal takes no more
     }
-    if (gone && step() < last_step_) {
+    if (gone && step() < last_step_ && link.lost_track.load(std::memory_order_relaxed) == 0) {
       report_.following.store(0, std::memory_order_relaxed);
-      const BeatClock clock = make_beat_clock(0, step_ns_, rate_);
-      const auto beats =
-          static_cast<std::int64_t>(primary.step) - static_cast<std::int64_t>(step());
-      return primary.received_ns + beats_to_ns(clock, 1) -
-             beats_to_ns(clock, static_cast<std::uint64_t>(std::max<std::int64_t>(0, beats)));
+      return due_after(primary);
     }
     sleep_until_pushed(*segment_, seen, 10);
   }
   return std::nullopt;
+}
+
+/// The beats that the primary has computed, as far as their commands are here.
+void Tick::follow_to(const StandbyBeatRecord& primary, const std::atomic<bool>& stop) noexcept {
+  take_followed();
+  // All commands of a beat are here when all are that the primary knew of, or one of a later beat is.
+  const auto complete = [&] {
+    return next_number_ >= primary.next_number || (!held_.empty() && held_.back().step > step());
+  };
+  while (step() < std::min(primary.step, last_step_) && complete() &&
+         !stop.load(std::memory_order_relaxed)) {
+    follow_beat();
+    take_followed();
+  }
+}
+
+/// Its phase goes on, as far as it was heard.
+std::int64_t Tick::due_after(const StandbyBeatRecord& primary) const noexcept {
+  if (primary.received_ns == 0) {
+    return monotonic_ns();
+  }
+  const BeatClock clock = make_beat_clock(0, step_ns_, rate_);
+  const std::uint64_t short_of = primary.step > step() ? primary.step - step() : 0;
+  return primary.received_ns + beats_to_ns(clock, 1) - beats_to_ns(clock, short_of);
 }
 
 /// What comes out of order is not kept: the bridge looks after that, and says so.
@@ -101,14 +118,17 @@ void Tick::follow_beat() noexcept {
   }
 }
 
-/// The beats of the silence, one after the other: subscribers get every step. Returns when it was done.
+/// The beats of the silence, one after the other: subscribers get every step. Returns when it was done. What a
+/// machine cannot make up in twice their number is left to the policy of the budget.
 std::int64_t Tick::make_up(const BeatClock& clock, const std::atomic<bool>& stop) noexcept {
   std::int64_t now_ns = monotonic_ns();
-  while (step() < last_step_ && due_ns(clock, step() + 1) <= now_ns &&
+  std::uint64_t left = 2 * beats_behind(clock, step(), now_ns);
+  while (left > 0 && step() < last_step_ && beats_behind(clock, step(), now_ns) > 0 && !halted() &&
          !stop.load(std::memory_order_relaxed)) {
     account(beat(step(), now_ns), 0);
     add(report_.caught_up_beats, 1);
     now_ns = monotonic_ns();
+    --left;
   }
   return now_ns;
 }

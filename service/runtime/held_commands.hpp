@@ -14,6 +14,7 @@ class HeldCommands {
 
   bool has_room() const noexcept { return count_ < records_.size(); }
   bool empty() const noexcept { return count_ == 0; }
+  std::size_t size() const noexcept { return count_; }
 
   /// Only while it has room.
   void push(const JournalRecord& record) noexcept {
@@ -21,6 +22,9 @@ class HeldCommands {
     ++count_;
   }
   const JournalRecord& front() const noexcept { return records_[first_]; }
+  const JournalRecord& back() const noexcept {
+    return records_[(first_ + count_ - 1) % records_.size()];
+  }
   void pop() noexcept {
     first_ = (first_ + 1) % records_.size();
     --count_;

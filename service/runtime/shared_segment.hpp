@@ -27,7 +27,9 @@ struct StandbyLink {
       0};                                       ///< by the bridge: the primary's state is in a file
   std::atomic<std::uint32_t> following{0};      ///< by adstard: the tick has it and follows
   std::atomic<std::uint32_t> take_over{0};      ///< by the bridge: the primary is gone
-  std::atomic<std::uint32_t> lost_track{0};     ///< by the bridge: some of its records are missing
+  std::atomic<std::uint32_t> lost_track{0};     ///< by either: it cannot follow with the same bits
+  std::atomic<std::uint64_t> followed_high{0};  ///< by the bridge: whose state it has
+  std::atomic<std::uint64_t> followed_low{0};
   std::atomic<std::uint64_t> outranked_by{0};   ///< by the bridge: a higher term is out there
   std::atomic<std::uint64_t> next_followed{0};  ///< by the bridge: of the record to be pushed next
   SpscRing<JournalRecord, 4096> relayed;        ///< tick → bridge, of a primary

@@ -39,7 +39,7 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
       controls_(segment->control_answers),
       obeys_run_control_(scene.service.run_control),
       lead_(scene.standby ? scene.standby->lead_steps : 0),
-      held_(scene.standby ? decltype(StandbyLink::relayed)::kCapacity : 0),
+      held_(scene.standby ? 2 * kMostHeld : 0),
       snapshot_every_(snapshot_every(step_ns_)),
       snapshot_(scene.spacecraft.size()),
       fleet_words_(fleet_words(segment.fleet_size())) {

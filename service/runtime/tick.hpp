@@ -107,6 +107,9 @@ class Tick {
   /// The same of run control and of step requests.
   static constexpr int kRequestsPerBeat = 16;
 
+  /// Commands that wait for their lead to pass, at most. A standby has room for more: it may be behind.
+  static constexpr std::size_t kMostHeld = decltype(StandbyLink::relayed)::kCapacity;
+
   /// When the parts of a beat ended, monotonic time [ns].
   struct BeatTimes {
     std::int64_t begun = 0, commanded = 0, stepped = 0, handed_over = 0;
@@ -148,6 +151,8 @@ class Tick {
   void tell_standby(bool ended) noexcept;
   std::optional<std::int64_t> follow(const std::atomic<bool>& stop) noexcept;
   void take_followed() noexcept;
+  void follow_to(const StandbyBeatRecord& primary, const std::atomic<bool>& stop) noexcept;
+  std::int64_t due_after(const StandbyBeatRecord& primary) const noexcept;
   void follow_beat() noexcept;
   std::int64_t make_up(const BeatClock& clock, const std::atomic<bool>& stop) noexcept;
 

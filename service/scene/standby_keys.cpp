@@ -9,6 +9,7 @@ namespace adstar::scene {
 namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr std::int64_t kDay = 86'400'000 * kMillisecond;
 constexpr std::int64_t kMostSteps = 2000;
 
 std::uint64_t read_lead(const Value& value, std::int64_t step_ns) {
@@ -40,10 +41,15 @@ std::optional<Standby> read_standby(Keys& root, const Simulation& simulation,
   standby.lead_steps =
       read_lead(keys.optional("lead"), std::max<std::int64_t>(1, simulation.step_ns));
   const Value lease = keys.optional("lease");
-  standby.lease_ns = read_duration(lease, "100ms").value_or(100 * kMillisecond);
-  if (standby.lease_ns < 20 * kMillisecond) {
-    lease.refuse("20ms at least: a busy machine is silent for less than that without being gone",
-                 "\"100ms\"");
+  const std::int64_t beat = std::clamp<std::int64_t>(beat_ns(simulation), 1, kDay);
+  const std::int64_t standard = std::max(100 * kMillisecond, 5 * beat);
+  const std::int64_t least = std::max(20 * kMillisecond, 3 * beat);
+  standby.lease_ns = read_duration(lease, "100ms").value_or(standard);
+  if (standby.lease_ns < least) {
+    lease.refuse(
+        format_duration(least) +
+            " at least: three beats, or a busy machine, are silent so long without being gone",
+        in_quotes(format_duration(standard)));
   }
   keys.refuse_unknown();
   if (simulation.pace != Pace::clock) {

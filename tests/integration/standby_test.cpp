@@ -194,39 +194,45 @@ TEST(Standby, goes_on_with_every_step_and_every_bit_when_the_primary_is_killed) 
       static_cast<long>(silences.back()), listener.heard().size(), records.size());
 }
 
-TEST(Standby, takes_over_at_once_from_a_primary_that_stops_in_good_order) {
-  const auto corner = testing::private_corner();
+/// A primary and a standby that follows it.
+class StandbyPair : public ::testing::Test {
+ protected:
+  void fly() {
+    const std::string scene = pair_scene(corner);
+    primary.emplace(scene, std::vector<std::string>{"--run", (home.path() / "a").string()});
+    ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << primary->log();
+    standby.emplace(scene,
+                    std::vector<std::string>{"--run", (home.path() / "b").string(), "--standby"});
+    ASSERT_TRUE(ground.until([&] { return says(*standby, "follows from step"); }))
+        << standby->log();
+  }
+  bool flies_on() {
+    const std::uint64_t newest = ground.momentum["sat1"].step;
+    return ground.until([&] { return ground.momentum["sat1"].step > newest + 50; });
+  }
+
+  const dds::ParticipantOptions corner = testing::private_corner();
   const TemporaryDirectory home;
-  const std::string scene = pair_scene(corner);
-  GroundStation ground(corner);
-  Daemon primary(scene, {"--run", (home.path() / "a").string()});
-  ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << primary.log();
-  Daemon standby(scene, {"--run", (home.path() / "b").string(), "--standby"});
-  ASSERT_TRUE(ground.until([&] { return says(standby, "follows from step"); })) << standby.log();
-  ASSERT_EQ(primary.stop(), 0) << primary.log();
-  const std::uint64_t newest = ground.momentum["sat1"].step;
-  ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > newest + 50; }))
-      << standby.log();
-  EXPECT_EQ(standby.stop(), 0) << standby.log();
+  GroundStation ground{corner};
+  std::optional<Daemon> primary, standby;
+};
+
+TEST_F(StandbyPair, takes_over_at_once_from_a_primary_that_stops_in_good_order) {
+  ASSERT_NO_FATAL_FAILURE(fly());
+  ASSERT_EQ(primary->stop(), 0) << primary->log();
+  ASSERT_TRUE(flies_on()) << standby->log();
+  EXPECT_EQ(standby->stop(), 0) << standby->log();
 }
 
-TEST(Standby, a_primary_that_stood_still_gives_way_to_whoever_took_over) {
-  const auto corner = testing::private_corner();
-  const TemporaryDirectory home;
-  const std::string scene = pair_scene(corner);
-  GroundStation ground(corner);
-  Daemon primary(scene, {"--run", (home.path() / "a").string()});
-  ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << primary.log();
-  Daemon standby(scene, {"--run", (home.path() / "b").string(), "--standby"});
-  ASSERT_TRUE(ground.until([&] { return says(standby, "follows from step"); })) << standby.log();
-  primary.signal(SIGSTOP);  // its bridge lives on, and tells of no new beat
-  ASSERT_TRUE(ground.until([&] { return says(standby, "flies in its place"); })) << standby.log();
-  primary.signal(SIGCONT);
-  EXPECT_EQ(primary.exit_code(), 3) << primary.log();
-  EXPECT_TRUE(says(primary, "another daemon took over in term 2")) << primary.log();
-  const std::uint64_t newest = ground.momentum["sat1"].step;
-  EXPECT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > newest + 50; }));
-  EXPECT_EQ(standby.stop(), 0) << standby.log();
+TEST_F(StandbyPair, a_primary_that_stood_still_gives_way_to_whoever_took_over) {
+  ASSERT_NO_FATAL_FAILURE(fly());
+  primary->signal(SIGSTOP);  // its bridge lives on, and tells of no new beat
+  ASSERT_TRUE(ground.until([&] { return says(*standby, "flies in its place"); })) << standby->log();
+  primary->signal(SIGCONT);
+  EXPECT_EQ(primary->exit_code(), 3) << primary->log();
+  EXPECT_TRUE(says(*primary, "another daemon took over in term 2")) << primary->log();
+  EXPECT_TRUE(flies_on());
+  EXPECT_EQ(standby->stop(), 0) << standby->log();
 }
 
 TEST(Standby, a_primary_whose_commands_were_waiting_is_resumed_with_the_bits_it_would_have_had) {
@@ -260,35 +266,26 @@ TEST(Standby, a_primary_whose_commands_were_waiting_is_resumed_with_the_bits_it_
   EXPECT_NE(replay.out().find("same bits"), std::string::npos) << replay.out();
 }
 
-TEST(Standby, takes_over_though_its_own_bridge_fell_while_it_followed) {
-  const auto corner = testing::private_corner();
-  const TemporaryDirectory home;
-  const std::string scene = pair_scene(corner);
-  GroundStation ground(corner);
+TEST_F(StandbyPair, takes_over_though_its_own_bridge_fell_while_it_followed) {
   Listener listener;
   ground.on_momentum = [&](const adstar_MomentumState& s) { listener.hear(s); };
-  Daemon primary(scene, {"--run", (home.path() / "a").string()});
-  ASSERT_TRUE(ground.until([&] { return ground.momentum.contains("sat1"); })) << primary.log();
-  Daemon standby(scene, {"--run", (home.path() / "b").string(), "--standby"});
-  ASSERT_TRUE(ground.until([&] { return says(standby, "follows from step"); })) << standby.log();
-  kill(standby.bridge(), SIGKILL);
+  ASSERT_NO_FATAL_FAILURE(fly());
+  kill(standby->bridge(), SIGKILL);
   auto command = ground.command("sat1", {0.01, 0, 0.02});  // told while nobody listens
   command.duration_ns = 50'000'000;
   ASSERT_TRUE(ground.send(command).has_value());
   const auto follows_again = [&] {
-    const std::string log = standby.log();
+    const std::string log = standby->log();
     const auto first = log.find("follows the primary");
     return log.find("follows the primary", first + 1) != std::string::npos;
   };
-  ASSERT_TRUE(ground.until(follows_again)) << standby.log();
+  ASSERT_TRUE(ground.until(follows_again)) << standby->log();
   const auto wanted = ground.momentum_samples + 100;
   ASSERT_TRUE(ground.until([&] { return ground.momentum_samples >= wanted; }));
-  primary.signal(SIGKILL);
-  ASSERT_EQ(primary.exit_code(), -SIGKILL);
-  const std::uint64_t newest = ground.momentum["sat1"].step;
-  ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].step > newest + 50; }))
-      << standby.log();
-  EXPECT_EQ(standby.stop(), 0) << standby.log();
+  primary->signal(SIGKILL);
+  ASSERT_EQ(primary->exit_code(), -SIGKILL);
+  ASSERT_TRUE(flies_on()) << standby->log();
+  EXPECT_EQ(standby->stop(), 0) << standby->log();
   std::uint64_t expected = listener.heard().begin()->first;
   for (const auto& [step, bits] : listener.heard()) {
     EXPECT_EQ(step, expected);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -246,6 +247,68 @@ TEST(Following, the_beats_of_the_silence_are_published_every_one) {
     ++next;
   }
   EXPECT_GT(next, 131u);
+}
+
+TEST(Following, a_backlog_longer_than_it_can_hold_is_worked_off) {
+  Running standby(pair_scene(0, 3), true);
+  constexpr std::uint64_t kRecords = 20'000;
+  standby.hear_beat(kRecords + 10, kRecords + 1);  // all of them are counted on at once
+  for (std::uint64_t number = 1; number <= kRecords; ++number) {
+    const JournalRecord record =
+        make_journal_record(JournalKind::command, number, number, 0, command(number, 0.01));
+    bool pushed = false;
+    ASSERT_TRUE(wait_for([&] {
+      pushed = pushed || standby.segment->standby.followed.push(record);
+      wake_tick(*standby.segment);
+      standby.segment->verdicts.skip_all();
+      return pushed;
+    })) << number;
+  }
+  wake_tick(*standby.segment);
+  EXPECT_TRUE(wait_for([&] { return standby.step() == kRecords + 10; })) << standby.step();
+}
+
+TEST(Following, a_primary_that_never_told_a_beat_is_taken_over_from_now_on) {
+  scene::Scene scene = pair_scene(0, 3);
+  scene.simulation.pace = scene::Pace::clock;
+  Running standby(scene, true);
+  standby.take_over();
+  ASSERT_TRUE(wait_for([&] { return standby.step() >= 2; }));
+  standby.stop();
+  EXPECT_LT(standby.tick.report().caught_up_beats.load(), 100u)
+      << "not those since the machine began";
+}
+
+TEST(Following, what_it_cannot_write_down_it_does_not_fly_on_without) {
+  const auto hot = std::make_unique<HotJournal>();
+  JournalWriter journal(*hot, 1);
+  while (journal.has_room()) {
+    journal.write(JournalKind::command, 0, 0, command(1, 0));
+  }
+  MappedSegment segment = MappedSegment::create(2);
+  Tick tick(pair_scene(0, 3), segment);
+  tick.record_in(&journal);
+  tick.stand_by();
+  segment->standby.followed.push(
+      make_journal_record(JournalKind::command, journal.next_number(), 1, 0, command(1, 0.1)));
+  segment->standby.take_over.store(1);
+  std::atomic<bool> stop{false};
+  std::thread runner([&] { tick.run(stop); });
+  EXPECT_TRUE(wait_for([&] { return segment->standby.lost_track.load() != 0; }));
+  stop = true;
+  runner.join();
+  EXPECT_EQ(tick.report().step.load(), 0u);
+}
+
+TEST(Following, a_machine_that_cannot_make_up_the_silence_is_left_to_its_policy) {
+  scene::Scene scene = pair_scene(0, 3);
+  scene.simulation.step_ns = 1'000;  // a microsecond: no beat is done so soon
+  scene.simulation.pace = scene::Pace::clock;
+  Running standby(scene, true);
+  standby.hear_beat(10, 1, monotonic_ns() - kMs);
+  ASSERT_TRUE(wait_for([&] { return standby.step() == 10; }));
+  standby.take_over();
+  EXPECT_TRUE(wait_for([&] { return standby.tick.report().missed_beats.load() > 0; }));
 }
 
 TEST(Following, it_ends_with_a_primary_that_reached_the_end_of_the_scene) {

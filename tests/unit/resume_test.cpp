@@ -1,68 +1,13 @@
 // A run that is killed and gone on with has the bits of one that was never killed.
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <sys/resource.h>
-#include <unistd.h>
 
-#include <gtest/gtest.h>
-
-#include "service/run/refly.hpp"
-#include "tests/support/recorded_flight.hpp"
+#include "tests/support/killed_run.hpp"
 
 namespace adstar::run {
 namespace {
-
-namespace fs = std::filesystem;
-using test::RecordedFlight;
-
-class KilledRun : public testing::Test {
- protected:
-  KilledRun() {
-    std::string pattern = (fs::temp_directory_path() / "adstar-run.XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-    static std::uint64_t next = 0;
-    run_ = (static_cast<std::uint64_t>(getpid()) << 32) + ++next;
-  }
-  ~KilledRun() override {
-    HotJournalFile::remove(run_);
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-
-  fs::path newest(const std::string& prefix) const {
-    fs::path found;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path_)) {
-      if (entry.path().filename().string().starts_with(prefix) && entry.path() > found) {
-        found = entry.path();
-      }
-    }
-    return found;
-  }
-
-  static void flip_a_bit(const fs::path& file, std::int64_t at) {
-    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    const std::int64_t size = static_cast<std::int64_t>(fs::file_size(file));
-    const std::int64_t place = at < 0 ? size + at : at;
-    stream.seekg(place);
-    const char byte = static_cast<char>(stream.get() ^ 0x10);
-    stream.seekp(place);
-    stream.put(byte);
-  }
-
-  static void expect_same(const RecordedFlight& flight, std::uint64_t seed, std::uint64_t until) {
-    RecordedFlight never_killed(seed);
-    never_killed.run_to(until);
-    ASSERT_EQ(flight.step(), until);
-    EXPECT_EQ(flight.hash(), never_killed.hash());
-    EXPECT_EQ(flight.schedule(), never_killed.schedule());
-  }
-
-  fs::path path_;
-  std::uint64_t run_ = 0;
-};
 
 TEST_F(KilledRun, goes_on_with_the_same_bits_wherever_it_was_killed) {
   test::Generator random(4);
@@ -304,115 +249,6 @@ TEST_F(KilledRun, a_full_disk_loses_nothing_and_what_finds_no_place_is_refused) 
   const RunRecords records = read_records(directory, nullptr, 1);
   EXPECT_TRUE(records.damage.empty());
   EXPECT_EQ(records.heard.size(), runtime::HotJournal::Ring::kCapacity);
-}
-
-runtime::ControlRecord control(std::uint64_t sequence, runtime::ControlAction action) {
-  runtime::ControlRecord record;
-  record.commander = {3, 4};
-  record.sequence = sequence;
-  record.action = action;
-  record.spacecraft = 1;
-  record.q_IB = {1, 2, 3, 4};
-  record.omega_B_rad_s = {0.1, -0.2, 0.3};
-  record.inertia_body_kg_m2 = {1.1, 1.2, 1.3, 0.01, 0, 0};
-  return record;
-}
-
-/// Another inertia at 130, a reset at 170, another state at 40 after it.
-void fly_with_controls(RecordedFlight& flight, std::uint64_t until_after_reset) {
-  if (flight.at() < runtime::Instant{0, 130}) {
-    flight.run_to(130);
-  }
-  if (flight.at().resets == 0) {
-    flight.control(control(1, runtime::ControlAction::set_inertia));
-    flight.run_to(170);
-    flight.control(control(2, runtime::ControlAction::reset));
-  }
-  flight.run_to(std::min<std::uint64_t>(40, until_after_reset));
-  if (until_after_reset > 40) {
-    flight.control(control(3, runtime::ControlAction::set_state));
-    flight.run_to(until_after_reset);
-  }
-}
-
-TEST_F(KilledRun, goes_on_over_changed_inertia_resets_and_set_states) {
-  for (const bool keep_all : {false, true}) {
-    for (const std::uint64_t killed_after : {0U, 1U, 40U, 41U, 90U}) {
-      std::error_code ignored;
-      fs::remove_all(path_, ignored);
-      std::optional<RecordedFlight> flight(std::in_place, 5, path_, run_);
-      flight->run_to(100);
-      flight->checkpoint(keep_all);
-      fly_with_controls(*flight, killed_after);
-      if (killed_after == 90) {
-        flight->checkpoint(keep_all);
-      }
-      flight.reset();
-      flight.emplace(5, path_);
-      ASSERT_EQ(flight->at(), (runtime::Instant{1, killed_after}));
-      fly_with_controls(*flight, 120);
-      RecordedFlight never_killed(5);
-      fly_with_controls(never_killed, 120);
-      EXPECT_EQ(flight->hash(), never_killed.hash()) << killed_after;
-      EXPECT_EQ(flight->schedule(), never_killed.schedule()) << killed_after;
-      flight->checkpoint(keep_all);
-      flight.reset();
-      const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
-      const Reflight again =
-          refly(directory, test::recorded_scene(), 7, [](double) { return true; });
-      EXPECT_FALSE(again.differs_at) << again.differs_at->step << " " << again.differs_in;
-      EXPECT_EQ(again.to, (runtime::Instant{1, 120}));
-    }
-  }
-}
-
-TEST_F(KilledRun, flown_again_gives_the_same_bits) {
-  {
-    RecordedFlight flight(8, path_, run_);
-    for (std::uint64_t step = 50; step <= 400; step += 50) {
-      flight.run_to(step);
-      flight.checkpoint(true);
-    }
-  }
-  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
-  const Reflight again = refly(directory, test::recorded_scene(), 7, [](double) { return true; });
-  EXPECT_EQ(again.from.step, 0U);
-  EXPECT_EQ(again.to.step, 400U);
-  EXPECT_EQ(again.hashes, 8U);
-  EXPECT_EQ(again.checkpoints, 3U);
-  EXPECT_FALSE(again.differs_at) << again.differs_at->step << again.differs_in;
-}
-
-TEST_F(KilledRun, flown_again_from_the_oldest_checkpoint_when_the_beginning_was_dropped) {
-  {
-    RecordedFlight flight(8, path_, run_);
-    for (std::uint64_t step = 50; step <= 400; step += 50) {
-      flight.run_to(step);
-      flight.checkpoint();
-    }
-  }
-  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
-  const Reflight again = refly(directory, test::recorded_scene(), 7, [](double) { return true; });
-  EXPECT_EQ(again.from.step, 300U);
-  EXPECT_EQ(again.to.step, 400U);
-  EXPECT_FALSE(again.differs_at);
-}
-
-TEST_F(KilledRun, flown_again_with_another_body_says_where_it_parts) {
-  {
-    RecordedFlight flight(8, path_, run_);
-    for (std::uint64_t step = 50; step <= 200; step += 50) {
-      flight.run_to(step);
-      flight.checkpoint(true);
-    }
-  }
-  scene::Scene other = test::recorded_scene();
-  other.spacecraft[1].name = "other";
-  other.spacecraft[1].inertia_body_kg_m2(0, 0) += 1e-12;
-  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
-  const Reflight again = refly(directory, other, 7, [](double) { return true; });
-  ASSERT_TRUE(again.differs_at);
-  EXPECT_EQ(again.differs_at->step, 50U);
 }
 
 }  // namespace

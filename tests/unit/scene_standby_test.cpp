@@ -30,10 +30,18 @@ TEST(SceneStandby, counts_the_lead_in_steps) {
       "try \"15ms\"");
 }
 
-TEST(SceneStandby, refuses_a_lease_that_a_busy_machine_would_break) {
+TEST(SceneStandby, refuses_a_lease_that_a_healthy_primary_would_break) {
   EXPECT_EQ(refusal(with_standby("lease = \"5ms\"")),
-            "scene.toml:4:9: standby.lease: got \"5ms\", expected 20ms at least: a busy machine is "
-            "silent for less than that without being gone; try \"100ms\"");
+            "scene.toml:4:9: standby.lease: got \"5ms\", expected 20ms at least: three beats, or a "
+            "busy machine, are silent so long without being gone; try \"100ms\"");
+  // A beat of 200 ms: the step, or a slow rate.
+  for (const char* const simulation : {"step = \"200ms\"", "step = \"20ms\"\nrate = 0.1"}) {
+    EXPECT_NE(refusal(with_standby("lease = \"500ms\"", "", simulation)).find("600ms at least"),
+              std::string::npos);
+    EXPECT_EQ(refusal(with_standby("lease = \"600ms\"", "", simulation)), "");
+    EXPECT_EQ(parse(with_standby("", "", simulation), "scene.toml").standby->lease_ns,
+              1'000'000'000);
+  }
 }
 
 TEST(SceneStandby, refuses_what_a_standby_cannot_follow) {

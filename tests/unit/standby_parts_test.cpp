@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "service/bridge/primary_voice.hpp"
+#include "service/bridge/claim.hpp"
 #include "service/bridge/standby_checkpoints.hpp"
 
 namespace adstar::bridge {
@@ -17,8 +17,7 @@ std::optional<std::string> add(CheckpointParts& parts, std::uint64_t checkpoint,
   if (!whole) {
     return std::nullopt;
   }
-  EXPECT_EQ(whole->number, checkpoint);
-  return std::string(reinterpret_cast<const char*>(whole->bytes.data()), whole->bytes.size());
+  return std::string(reinterpret_cast<const char*>(whole->data()), whole->size());
 }
 
 TEST(CheckpointParts, are_put_together_in_whatever_order_they_come) {

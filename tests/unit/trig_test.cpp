@@ -190,5 +190,21 @@ TEST(Sine, is_the_pairs_sine_beyond_1e8_and_nan_where_that_is) {
   EXPECT_TRUE(std::isnan(sine(std::numeric_limits<double>::quiet_NaN())));
 }
 
+TEST(Sines, have_the_bits_of_the_sine_of_each) {
+  Generator random(12);
+  for (int i = 0; i < 2'000; ++i) {
+    double angles[7];
+    for (double& angle : angles) {
+      angle = test::log_uniform(random, 1e-12, i % 2 == 0 ? 1e8 : 1e12) * (i % 3 == 0 ? -1 : 1);
+    }
+    double sines[7];
+    std::copy(std::begin(angles), std::end(angles), sines);
+    replace_by_sines(sines);
+    for (int k = 0; k < 7; ++k) {
+      EXPECT_EQ(sines[k], sine(angles[k])) << angles[k];
+    }
+  }
+}
+
 }  // namespace
 }  // namespace adstar
