@@ -38,9 +38,9 @@ namespace detail {
 
 /// One step of the scheme; false when it could not follow the motion into a unit quaternion: then the
 /// attitude stays as it was, and H_I has taken its impulse all the same.
-template <class Scheme, class T, class StepTorque>
-[[gnu::always_inline]] inline bool follow(const BodyOf<Scheme, T>& body, State<T>& state,
-                                          const T& h, const StepTorque& torque) {
+template <class Scheme, class AnyBody, class T, class StepTorque>
+[[gnu::always_inline]] inline bool follow(const AnyBody& body, State<T>& state, const T& h,
+                                          const StepTorque& torque) {
   const Quat<T> q_before{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
   Scheme::step(body, state, h, torque);
   const T q_squared = squared_norm(state.q_IB);
@@ -206,12 +206,7 @@ StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
   const std::int64_t end_ns = t_ns + h_ns;
   for (std::int64_t segments = 0; t_ns < end_ns; ++segments) {
     std::int64_t next_ns = end_ns;
-    std::int64_t edge_ns = kNever;
-    for (const Torque<T>& torque : torques) {
-      edge_ns = std::min(
-          edge_ns,
-          std::visit([&](const auto& model) { return model.next_edge_after(t_ns); }, torque));
-    }
+    const std::int64_t edge_ns = detail::next_edge_after(torques, t_ns);
     if (edge_ns < end_ns) {
       if (segments < limits.edges) {
         next_ns = edge_ns;

@@ -60,6 +60,18 @@ Segment<T> make_segment(std::span<const Torque<T>> torques, std::int64_t t_ns) {
   return segment;
 }
 
+/// The first edge of any of them past t_ns.
+template <class T>
+[[gnu::always_inline]] inline std::int64_t next_edge_after(std::span<const Torque<T>> torques,
+                                                           std::int64_t t_ns) {
+  std::int64_t next = kNever;
+  for (const Torque<T>& torque : torques) {
+    next = std::min(
+        next, std::visit([&](const auto& model) { return model.next_edge_after(t_ns); }, torque));
+  }
+  return next;
+}
+
 /// The stage-varying models, summed at one instant.
 template <class T>
 void add_varying(TorqueSample<T>& sum, std::span<const Torque<T>> torques, const T& t_s) {

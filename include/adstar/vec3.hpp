@@ -56,6 +56,7 @@ T norm(const Vec3<T>& a) {
 template <class T>
 struct Sym3 {
   T xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+  friend bool operator==(const Sym3&, const Sym3&) = default;
 };
 
 template <class T>

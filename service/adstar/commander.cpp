@@ -38,7 +38,8 @@ Answer answer_of(const adstar_CommandStatus& status) {
           status.time_ns,
           status.effective_start_time_ns,
           status.effective_end_time_ns,
-          {torque.x, torque.y, torque.z}};
+          {torque.x, torque.y, torque.z},
+          status.speed_applied_rad_s};
 }
 
 }  // namespace
@@ -48,7 +49,9 @@ bool Answer::is_final() const { return forgotten || dds::is_final(verdict); }
 Commander::Commander(const dds::Participant& participant, Target target)
     : target_(std::move(target)),
       id_(random_id()),
-      writer_(participant),
+      torques_(participant),
+      wheel_torques_(participant),
+      wheel_speeds_(participant),
       reader_(participant),
       wait_set_(participant) {
   wait_set_.attach(reader_);
@@ -57,19 +60,52 @@ Commander::Commander(const dds::Participant& participant, Target target)
 std::uint64_t Commander::give(const Order& order) {
   const std::uint64_t sequence = ++last_sequence_;
   Dispatch dispatch;
-  adstar_TorqueCommand& command = dispatch.command;
+  dispatch.order = order;
+  dispatch.heard = dispatch.next_send = Clock::now();
+  dispatches_.emplace(sequence, std::move(dispatch));
+  return sequence;
+}
+
+template <class Command>
+Command Commander::header_of(std::uint64_t sequence, const Order& order) const {
+  Command command{};
   dds::set_text(command.spacecraft, target_.spacecraft);
-  dds::set_text(command.actuator, target_.actuator);
+  if constexpr (requires { command.wheel; }) {
+    dds::set_text(command.wheel, target_.actuator);
+  } else {
+    dds::set_text(command.actuator, target_.actuator);
+  }
   command.commander = {id_.high, id_.low};
   command.sequence_number = sequence;
   command.priority = order.priority;
   command.start_time_ns = order.start_ns;
   command.end_time_ns = order.end_ns;
   command.duration_ns = order.duration_ns;
-  command.torque_n_m = {order.torque_n_m[0], order.torque_n_m[1], order.torque_n_m[2]};
-  dispatch.heard = dispatch.next_send = Clock::now();
-  dispatches_.emplace(sequence, std::move(dispatch));
-  return sequence;
+  return command;
+}
+
+// A full send window is what the next repetition is for.
+void Commander::send(std::uint64_t sequence, const Order& order) {
+  switch (order.what) {
+    case Ordered::torque: {
+      auto command = header_of<adstar_TorqueCommand>(sequence, order);
+      command.torque_n_m = {order.torque_n_m[0], order.torque_n_m[1], order.torque_n_m[2]};
+      torques_.write(command);
+      break;
+    }
+    case Ordered::wheel_torque: {
+      auto command = header_of<adstar_WheelTorqueCommand>(sequence, order);
+      command.motor_torque_n_m = order.torque_n_m[0];
+      wheel_torques_.write(command);
+      break;
+    }
+    case Ordered::wheel_speed: {
+      auto command = header_of<adstar_WheelSpeedCommand>(sequence, order);
+      command.speed_rad_s = order.speed_rad_s;
+      wheel_speeds_.write(command);
+      break;
+    }
+  }
 }
 
 void Commander::work(std::chrono::milliseconds patience) {
@@ -97,7 +133,7 @@ void Commander::send_due(Clock::time_point now) {
       continue;
     }
     if (listened_to) {
-      writer_.write(dispatch.command);  // a full send window is what the next repetition is for
+      send(sequence, dispatch.order);
     }
     dispatch.next_send = now + (dispatch.answer ? kAskAfter
                                 : listened_to   ? kRepeat

@@ -17,12 +17,16 @@
 
 namespace adstar::cli {
 
+enum class Ordered { torque, wheel_torque, wheel_speed };
+
 struct Order {
+  Ordered what = Ordered::torque;
   std::int32_t priority = 0;
   std::int64_t start_ns = runtime::kStartAtNextBeat;
-  std::int64_t end_ns = 0;       ///< exclusive; 0 with a duration
-  std::int64_t duration_ns = 0;  ///< 0 with an end
-  std::array<double, 3> torque_n_m{};
+  std::int64_t end_ns = 0;             ///< exclusive; 0 with a duration
+  std::int64_t duration_ns = 0;        ///< 0 with an end
+  std::array<double, 3> torque_n_m{};  ///< of a wheel: x
+  double speed_rad_s = 0;              ///< of a wheel
 };
 
 struct Answer {
@@ -34,6 +38,7 @@ struct Answer {
   std::int64_t start_ns = 0;
   std::int64_t end_ns = 0;
   std::array<double, 3> torque_n_m{};
+  double speed_rad_s = 0;
   bool forgotten = false;  ///< it was accepted once, and the service has forgotten how it ended
 
   bool is_final() const;
@@ -45,13 +50,13 @@ class Commander {
 
   struct Target {
     std::string spacecraft;
-    std::string actuator;
-    std::string service;  ///< hear this one only; empty: any
+    std::string actuator;  ///< or the wheel
+    std::string service;   ///< hear this one only; empty: any
   };
 
   /// One order on its way.
   struct Dispatch {
-    adstar_TorqueCommand command{};
+    Order order;
     std::optional<Answer> answer;
     std::optional<Answer> provisional;  ///< "I do not fly it": another service may
     Clock::time_point provisional_until;
@@ -79,10 +84,13 @@ class Commander {
   bool silent(std::uint64_t sequence, std::chrono::nanoseconds timeout) const;
 
   /// Some service listens to commands.
-  bool heard_by_anyone() const { return writer_.matched() > 0; }
+  bool heard_by_anyone() const { return torques_.matched() > 0; }
 
  private:
   void send_due(Clock::time_point now);
+  void send(std::uint64_t sequence, const Order& order);
+  template <class Command>
+  Command header_of(std::uint64_t sequence, const Order& order) const;
   bool take_answers(Clock::time_point now);
   bool receive(const adstar_CommandStatus& status, Clock::time_point now);
   bool confirm_provisional(Clock::time_point now);
@@ -92,7 +100,9 @@ class Commander {
   runtime::CommanderId id_;
   std::uint64_t last_sequence_ = 0;
   std::map<std::uint64_t, Dispatch> dispatches_;
-  dds::Writer<adstar_TorqueCommand> writer_;
+  dds::Writer<adstar_TorqueCommand> torques_;
+  dds::Writer<adstar_WheelTorqueCommand> wheel_torques_;
+  dds::Writer<adstar_WheelSpeedCommand> wheel_speeds_;
   dds::Reader<adstar_CommandStatus> reader_;
   dds::WaitSet wait_set_;
 };

@@ -87,16 +87,20 @@ void ProfileRun::give_next() {
     return;
   }
   if (next_row_ < rows_.size()) {
-    const ProfileRow& row = rows_[next_row_];
-    Order order;
-    order.priority = request_.priority;
-    order.start_ns = base_ns_ + row.start_ns;
-    order.end_ns = base_ns_ + row.end_ns;
-    order.torque_n_m = row.torque_n_m;
-    on_their_way_.emplace(commander_.give(order), next_row_++);
+    on_their_way_.emplace(commander_.give(asked(next_row_)), next_row_);
+    ++next_row_;
   } else if (on_their_way_.empty() || !request_.wait) {
     state_ = State::over;
   }
+}
+
+Order ProfileRun::asked(std::size_t row) const {
+  Order order;
+  order.priority = request_.priority;
+  order.start_ns = base_ns_ + rows_[row].start_ns;
+  order.end_ns = base_ns_ + rows_[row].end_ns;
+  order.torque_n_m = rows_[row].torque_n_m;
+  return order;
 }
 
 void ProfileRun::look_at_rows() {
@@ -120,7 +124,7 @@ void ProfileRun::look_at_rows() {
 
 void ProfileRun::report(std::uint64_t sequence, const Answer& answer) {
   const std::size_t row = on_their_way_.at(sequence);
-  fmt::print("row {}: {}\n", row + 1, verdict_sentence(answer, rows_[row].torque_n_m));
+  fmt::print("row {}: {}\n", row + 1, verdict_sentence(answer, asked(row)));
   std::fflush(stdout);
   ++verdicts_[answer.verdict];
   worst_ = std::max(worst_, exit_code_of(answer));
@@ -136,7 +140,7 @@ void ProfileRun::summarise() const {
   for (const auto& [sequence, row] : on_their_way_) {
     if (commander_.at(sequence).answer) {
       fmt::print("row {}: {}\n", row + 1,
-                 verdict_sentence(*commander_.at(sequence).answer, rows_[row].torque_n_m));
+                 verdict_sentence(*commander_.at(sequence).answer, asked(row)));
       ++verdicts[runtime::Verdict::accepted];
     }
   }

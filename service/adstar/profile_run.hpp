@@ -34,6 +34,7 @@ class ProfileRun {
   void claim();
   void look_at_claim();
   void give_next();
+  Order asked(std::size_t row) const;
   void look_at_rows();
   void report(std::uint64_t sequence, const Answer& answer);
   bool silent(std::uint64_t sequence) const;

@@ -25,7 +25,7 @@ namespace {
 
 struct Options {
   std::string scene;
-  std::string output;
+  std::string output, wheels;
   std::size_t threads = 1;
   PropagateRequest request;
 };
@@ -57,6 +57,35 @@ void write_rows(Output& output, const scene::Scene& scene, const runtime::Fleet&
   }
 }
 
+constexpr const char* kWheelColumns =
+    "spacecraft,wheel,step,time_s,speed_rad_s,momentum_n_m_s,motor_torque_n_m,friction_torque_n_"
+    "m\n";
+
+void write_wheels(Output& output, const scene::Scene& scene, const runtime::Fleet& fleet,
+                  std::uint64_t step, std::int64_t time_ns) {
+  for (std::size_t i = 0; i < scene.spacecraft.size(); ++i) {
+    const runtime::Vehicle& vehicle = fleet.vehicles()[i];
+    if (vehicle.wheels == nullptr) {
+      continue;
+    }
+    const Vec3<double> omega_B = runtime::angular_velocity_of(vehicle);
+    for (std::size_t k = 0; k < vehicle.wheels->spinning.size(); ++k) {
+      const runtime::WheelRecord w = runtime::sample(vehicle.wheels->spinning[k], omega_B);
+      std::string& text = output.buffer();
+      fmt::format_to(std::back_inserter(text), "{},{},{},", scene.spacecraft[i].name,
+                     scene.spacecraft[i].wheels[k].name, step);
+      report::append_seconds(text, time_ns);
+      for (const double value :
+           {w.speed_rad_s, w.momentum_n_m_s, w.motor_torque_n_m, w.friction_torque_n_m}) {
+        text += ',';
+        report::append_number(text, value);
+      }
+      text += '\n';
+      output.flush_if_full();
+    }
+  }
+}
+
 /// Nobody commands here: an actuator of the scene is still.
 void say_that_actuators_rest(const scene::Scene& scene) {
   std::size_t count = 0;
@@ -72,8 +101,8 @@ void say_that_actuators_rest(const scene::Scene& scene) {
     const std::string more =
         count > 1 ? fmt::format(" and {} more", report::counted(count - 1)) : "";
     fmt::print(stderr,
-               "adstar propagate: commanded actuator {}{} gives zero torque here; to command it, "
-               "run adstard and `adstar torque`\n",
+               "adstar propagate: nobody commands {}{} here; to command it, run adstard, and "
+               "`adstar torque` or `adstar wheel`\n",
                first, more);
   }
 }
@@ -87,8 +116,22 @@ int propagate(const Options& options) {
                        runtime::Lanewise::automatic, options.threads);
   say_that_actuators_rest(scene);
 
+  std::optional<Output> wheels;
+  if (!options.wheels.empty()) {
+    if (scene::first_with_wheels(scene.spacecraft) == nullptr) {
+      throw Failure(kUsage, "--wheels: the scene has no wheels; leave it out");
+    }
+    wheels.emplace(Output::to_file(options.wheels));
+    wheels->buffer() = kWheelColumns;
+  }
+  const auto write = [&](std::uint64_t step, std::int64_t time_ns) {
+    write_rows(output, scene, fleet, step, time_ns);
+    if (wheels) {
+      write_wheels(*wheels, scene, fleet, step, time_ns);
+    }
+  };
   append_csv_header(output.buffer());
-  write_rows(output, scene, fleet, 0, 0);
+  write(0, 0);
   Unresolved unresolved(scene.spacecraft.size());
   {
     ProgressBar progress(plan.steps);
@@ -101,7 +144,7 @@ int propagate(const Options& options) {
       }
       const std::uint64_t done = n + 1;
       if (done == plan.steps || (plan.every > 0 && done % plan.every == 0)) {
-        write_rows(output, scene, fleet, done, t_ns + plan.step_ns);
+        write(done, t_ns + plan.step_ns);
       }
       if (done % look_every == 0) {
         progress.show(done);
@@ -113,6 +156,9 @@ int propagate(const Options& options) {
     }
   }
   output.commit();
+  if (wheels) {
+    wheels->commit();
+  }
   if (const std::string warning = unresolved.warning(scene, plan.step_ns); !warning.empty()) {
     fmt::print(stderr, "adstar propagate: {}\n", warning);
   }
@@ -140,6 +186,8 @@ Verb add_propagate(CLI::App& program) {
       ->check(whole_number(1, 256));
   verb->add_option("--output", options->output,
                    "Write there, whole or not at all (default: stdout)")
+      ->type_name("FILE");
+  verb->add_option("--wheels", options->wheels, "Write the wheels' rows there, whole or not at all")
       ->type_name("FILE");
   verb->footer(
       "Example:\n"

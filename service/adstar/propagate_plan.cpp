@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "adstar/gyrostat.hpp"
 #include "adstar/integrators/all.hpp"
 #include "service/adstar/failure.hpp"
 #include "service/scene/nearest.hpp"
@@ -47,6 +48,12 @@ void require_scheme(const std::string& name, const char* option, const scene::Sc
     throw Failure(kUsage, fmt::format("{}: got '{}', which knows no torque, and the scene's '{}' "
                                       "names one; try {}",
                                       option, name, forced->name, known.front()));
+  }
+  if (const scene::Spacecraft* with_wheels = scene::first_with_wheels(scene.spacecraft);
+      with_wheels != nullptr && !carries_wheels(name)) {
+    throw Failure(kUsage, fmt::format("{}: got '{}', which carries no wheels, and the scene's '{}' "
+                                      "has some; try {}",
+                                      option, name, with_wheels->name, known.front()));
   }
 }
 

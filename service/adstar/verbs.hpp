@@ -17,6 +17,7 @@ Verb add_check(CLI::App& program);
 Verb add_trade(CLI::App& program);
 Verb add_reproduce(CLI::App& program);
 Verb add_torque(CLI::App& program);
+Verb add_wheel(CLI::App& program);
 Verb add_monitor(CLI::App& program);
 Verb add_list(CLI::App& program);
 Verb add_timing(CLI::App& program);

@@ -12,13 +12,29 @@ namespace {
 
 using runtime::Verdict;
 
-std::string vector_text(const std::array<double, 3>& v) {
+/// The number or numbers of an order or an answer.
+template <class Given>
+std::string value_of(const Given& given, Ordered what) {
+  const auto& v = given.torque_n_m;
+  switch (what) {
+    case Ordered::torque:
+      break;
+    case Ordered::wheel_torque:
+      return fmt::format("{}", v[0]);
+    case Ordered::wheel_speed:
+      return fmt::format("{}", given.speed_rad_s);
+  }
   return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
 }
 
-std::string in_force(const Answer& answer) {
-  return fmt::format("from {} s to {} s, torque {} N m", report::seconds_text(answer.start_ns),
-                     report::seconds_text(answer.end_ns), vector_text(answer.torque_n_m));
+std::string in_force(const Answer& answer, Ordered what) {
+  const bool speed = what == Ordered::wheel_speed;
+  return fmt::format("from {} s to {} s, {} {} {}", report::seconds_text(answer.start_ns),
+                     report::seconds_text(answer.end_ns),
+                     speed                           ? "speed"
+                     : what == Ordered::wheel_torque ? "motor torque"
+                                                     : "torque",
+                     value_of(answer, what), speed ? "rad/s" : "N m");
 }
 
 std::string decided(const Answer& answer) {
@@ -27,7 +43,7 @@ std::string decided(const Answer& answer) {
 
 }  // namespace
 
-std::string verdict_sentence(const Answer& answer, const std::array<double, 3>& asked_n_m) {
+std::string verdict_sentence(const Answer& answer, const Order& asked) {
   const std::string by =
       fmt::format("{} by '{}'", dds::verdict_text(answer.verdict), answer.service);
   if (answer.forgotten) {
@@ -35,14 +51,15 @@ std::string verdict_sentence(const Answer& answer, const std::array<double, 3>& 
   }
   switch (answer.verdict) {
     case Verdict::accepted:
-      return fmt::format("{} {}: waits, {}", by, decided(answer), in_force(answer));
+      return fmt::format("{} {}: waits, {}", by, decided(answer), in_force(answer, asked.what));
     case Verdict::applied:
-      return fmt::format("{}: step {}, {}", by, answer.step, in_force(answer));
+      return fmt::format("{}: step {}, {}", by, answer.step, in_force(answer, asked.what));
     case Verdict::applied_late:
-      return fmt::format("{}: step {}, {}; its start was past", by, answer.step, in_force(answer));
+      return fmt::format("{}: step {}, {}; its start was past", by, answer.step,
+                         in_force(answer, asked.what));
     case Verdict::clamped:
       return fmt::format("{} to the actuator's limit: step {}, {} instead of {}", by, answer.step,
-                         in_force(answer), vector_text(asked_n_m));
+                         in_force(answer, asked.what), value_of(asked, asked.what));
     case Verdict::superseded:
       return fmt::format("{} {}: a newer command took its place", by, decided(answer));
     case Verdict::expired:

@@ -1,7 +1,6 @@
 #pragma once
 // A verdict as one sentence, and what it means for the exit code.
 
-#include <array>
 #include <string>
 
 #include "service/adstar/commander.hpp"
@@ -10,7 +9,7 @@
 namespace adstar::cli {
 
 /// "applied by 'adstard': step 120, from 1.2 s to 6.2 s, torque [0, 0, 0.05] N m"
-std::string verdict_sentence(const Answer& answer, const std::array<double, 3>& asked_n_m);
+std::string verdict_sentence(const Answer& answer, const Order& asked);
 
 ExitCode exit_code_of(const Answer& answer);
 

@@ -80,7 +80,7 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
     log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, flight, next_number_,
                                         last_in_files_);
     if (begins_with_checkpoint_ || scene.standby) {
-      log->write_checkpoint(flight.at, runtime::states_of(tick.fleet()), scene.run.whole_history);
+      log->write_checkpoint(flight.at, runtime::state_of(tick.fleet()), scene.run.whole_history);
     }
     writer_.emplace(**hot_, next_number_);
     writer_->reached(flight.at.step);
@@ -116,7 +116,7 @@ void Keeping::begin_at(const Plan& plan, std::uint64_t fingerprint, const run::C
     throw run::RunError(fmt::format(
         "the primary flies another scene than {}: give both daemons the same files", plan.file));
   }
-  if (state.vehicles.size() != plan.scene.spacecraft.size() || !set_to(flight, state)) {
+  if (!set_to(flight, state)) {
     throw run::RunError("the primary's state does not fit the scene that it names");
   }
   next_number_ = state.next_number;

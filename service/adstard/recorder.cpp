@@ -80,9 +80,9 @@ void Recorder::keep_up() {
 
 void Recorder::take_snapshot() {
   const runtime::Instant at = snapshot_.at();
-  const std::vector<runtime::VehicleState> vehicles = snapshot_.vehicles();
+  const runtime::FleetState state = snapshot_.state();
   snapshot_.done();
-  const std::uint64_t hash = run::state_hash(at.step, vehicles);
+  const std::uint64_t hash = run::state_hash(at.step, state);
   {
     const std::lock_guard lock(mutex_);
     newest_ = {hash, at.step};
@@ -94,15 +94,15 @@ void Recorder::take_snapshot() {
   log_->note_hash(at, hash);
   unsynced_ = true;
   if (at >= next_checkpoint_) {
-    log_->write_checkpoint(at, vehicles, keep_all_journals_);
+    log_->write_checkpoint(at, state, keep_all_journals_);
     next_checkpoint_ = {at.resets, at.step + checkpoint_every_steps_};
   }
 }
 
 bool Recorder::finish(const runtime::Fleet& fleet, const runtime::Instant& at) {
   stop_thread();
-  const std::vector<runtime::VehicleState> vehicles = runtime::states_of(fleet);
-  const std::uint64_t hash = run::state_hash(at.step, vehicles);
+  const runtime::FleetState state = runtime::state_of(fleet);
+  const std::uint64_t hash = run::state_hash(at.step, state);
   newest_ = {hash, at.step};
   if (log_ == nullptr) {
     return true;
@@ -110,7 +110,7 @@ bool Recorder::finish(const runtime::Fleet& fleet, const runtime::Instant& at) {
   try {
     log_->move_records();
     log_->note_hash(at, hash);
-    log_->write_checkpoint(at, vehicles, keep_all_journals_);
+    log_->write_checkpoint(at, state, keep_all_journals_);
     return true;
   } catch (const std::exception& error) {
     spdlog::error(

@@ -8,6 +8,19 @@
 #include "service/dds/verdict_text.hpp"
 
 namespace adstar::bridge {
+namespace {
+
+std::string_view actuator_of(const adstar_TorqueCommand& command) {
+  return dds::text_of(command.actuator);
+}
+std::string_view actuator_of(const auto& command) { return dds::text_of(command.wheel); }
+
+template <class Command>
+constexpr Directory::Kind kKind =
+    std::is_same_v<Command, adstar_TorqueCommand> ? Directory::Kind::torque
+                                                  : Directory::Kind::wheel;
+
+}  // namespace
 
 CommandIntake::CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
                              const Directory& directory, const OtherServices& others,
@@ -17,10 +30,14 @@ CommandIntake::CommandIntake(const dds::Participant& participant, runtime::Share
       others_(others),
       statuses_(statuses),
       service_(std::move(service)),
-      reader_(participant),
+      torques_(participant),
+      wheel_torques_(participant),
+      wheel_speeds_(participant),
       requests_(participant, segment, directory, service_),
       wait_set_(participant) {
-  wait_set_.attach(reader_);
+  wait_set_.attach(torques_);
+  wait_set_.attach(wheel_torques_);
+  wait_set_.attach(wheel_speeds_);
   requests_.attach_to(wait_set_);
   thread_ = std::thread([this] { listen(); });
 }
@@ -59,7 +76,14 @@ void CommandIntake::listen() noexcept {
 
 /// False when there was none.
 bool CommandIntake::take_commands() {
-  return reader_.take([this](const adstar_TorqueCommand& command, const dds_sample_info_t& info) {
+  const std::size_t torques = take_from(torques_);
+  const std::size_t wheel_torques = take_from(wheel_torques_);
+  return take_from(wheel_speeds_) + wheel_torques + torques > 0;
+}
+
+template <class Command>
+std::size_t CommandIntake::take_from(dds::Reader<Command>& reader) {
+  return reader.take([this](const Command& command, const dds_sample_info_t& info) {
     if (is_stale(info, [&] {
           return fmt::format("a command for '{}'", dds::text_of(command.spacecraft));
         })) {
@@ -67,10 +91,11 @@ bool CommandIntake::take_commands() {
     } else {
       take(command);
     }
-  }) > 0;
+  });
 }
 
-void CommandIntake::take(const adstar_TorqueCommand& command) {
+template <class Command>
+void CommandIntake::take(const Command& command) {
   const auto spacecraft = directory_.spacecraft(dds::text_of(command.spacecraft));
   if (!spacecraft) {
     // Another daemon answers for its own spacecraft.
@@ -79,7 +104,7 @@ void CommandIntake::take(const adstar_TorqueCommand& command) {
     }
     return;
   }
-  const auto actuator = directory_.actuator(*spacecraft, dds::text_of(command.actuator));
+  const auto actuator = directory_.actuator(*spacecraft, kKind<Command>, actuator_of(command));
   if (!actuator) {
     refuse(command, runtime::Reason::unknown_actuator);
     return;
@@ -100,7 +125,8 @@ void CommandIntake::take(const adstar_TorqueCommand& command) {
   }
 }
 
-void CommandIntake::refuse(const adstar_TorqueCommand& command, runtime::Reason reason) {
+template <class Command>
+void CommandIntake::refuse(const Command& command, runtime::Reason reason) {
   refused_.fetch_add(1);
   runtime::VerdictRecord verdict;
   verdict.commander = {command.commander.high, command.commander.low};
@@ -113,12 +139,12 @@ void CommandIntake::refuse(const adstar_TorqueCommand& command, runtime::Reason 
     verdict.step = newest.step;
     verdict.time_ns = newest.time_ns;
   }
-  statuses_.write(dds::to_sample(verdict, dds::text_of(command.spacecraft),
-                                 dds::text_of(command.actuator), service_));
+  statuses_.write(
+      dds::to_sample(verdict, dds::text_of(command.spacecraft), actuator_of(command), service_));
   static dds::RateLimit limit(5);
   if (const auto dropped = limit.admit()) {
     spdlog::warn("refused a command for '{}' actuator '{}': {}", dds::text_of(command.spacecraft),
-                 dds::text_of(command.actuator), dds::reason_text(reason));
+                 actuator_of(command), dds::reason_text(reason));
     if (*dropped > 0) {
       spdlog::warn("{} more refusals since the last one told", *dropped);
     }

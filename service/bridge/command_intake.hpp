@@ -1,5 +1,5 @@
 #pragma once
-// TorqueCommand samples become CommandRecords in the ring. Only names are looked at here: adstard
+// Commands of torques and wheels become CommandRecords in the ring. Only names are looked at here: adstard
 // judges the rest. The requests to the clock are taken on the same thread.
 
 #include <atomic>
@@ -39,15 +39,21 @@ class CommandIntake {
  private:
   void listen() noexcept;
   bool take_commands();
-  void take(const adstar_TorqueCommand& command);
-  void refuse(const adstar_TorqueCommand& command, runtime::Reason reason);
+  template <class Command>
+  std::size_t take_from(dds::Reader<Command>& reader);
+  template <class Command>
+  void take(const Command& command);
+  template <class Command>
+  void refuse(const Command& command, runtime::Reason reason);
 
   runtime::SharedSegment& segment_;
   const Directory& directory_;
   const OtherServices& others_;
   StatusWriter& statuses_;
   std::string service_;
-  dds::Reader<adstar_TorqueCommand> reader_;
+  dds::Reader<adstar_TorqueCommand> torques_;
+  dds::Reader<adstar_WheelTorqueCommand> wheel_torques_;
+  dds::Reader<adstar_WheelSpeedCommand> wheel_speeds_;
   RequestIntake requests_;
   dds::WaitSet wait_set_;
   std::atomic<std::uint64_t> handed_over_{0};

@@ -14,11 +14,11 @@ std::optional<std::uint32_t> Directory::spacecraft(std::string_view name) const 
   return found == by_name_.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::optional<std::uint32_t> Directory::actuator(std::uint32_t spacecraft,
+std::optional<std::uint32_t> Directory::actuator(std::uint32_t spacecraft, Kind kind,
                                                  std::string_view name) const {
   const auto& actuators = scene_->spacecraft.at(spacecraft).actuators;
   for (std::uint32_t i = 0; i < actuators.size(); ++i) {
-    if (actuators[i].name == name) {
+    if (actuators[i].name == name && actuators[i].wheel.has_value() == (kind == Kind::wheel)) {
       return i;
     }
   }
@@ -35,6 +35,14 @@ std::string_view Directory::actuator_name(std::uint32_t spacecraft,
     return {};
   }
   return scene_->spacecraft[spacecraft].actuators[actuator].name;
+}
+
+std::string_view Directory::wheel_name(std::uint32_t spacecraft,
+                                       std::uint32_t wheel) const noexcept {
+  if (spacecraft >= size() || wheel >= scene_->spacecraft[spacecraft].wheels.size()) {
+    return {};
+  }
+  return scene_->spacecraft[spacecraft].wheels[wheel].name;
 }
 
 }  // namespace adstar::bridge

@@ -17,12 +17,16 @@ class Directory {
   explicit Directory(const scene::Scene& scene);
 
   std::optional<std::uint32_t> spacecraft(std::string_view name) const;
-  std::optional<std::uint32_t> actuator(std::uint32_t spacecraft, std::string_view name) const;
+  enum class Kind { torque, wheel };
+  /// The commanded one of that kind and name.
+  std::optional<std::uint32_t> actuator(std::uint32_t spacecraft, Kind kind,
+                                        std::string_view name) const;
 
   std::size_t size() const noexcept { return scene_->spacecraft.size(); }
   /// Empty when the index is none of the scene's.
   std::string_view spacecraft_name(std::uint32_t index) const noexcept;
   std::string_view actuator_name(std::uint32_t spacecraft, std::uint32_t actuator) const noexcept;
+  std::string_view wheel_name(std::uint32_t spacecraft, std::uint32_t wheel) const noexcept;
 
  private:
   const scene::Scene* scene_;

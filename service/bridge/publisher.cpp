@@ -59,6 +59,7 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
       facts_(facts_of(scene, service_, options)),
       attitude_(participant),
       momentum_(participant),
+      wheels_(participant),
       fleet_(participant),
       status_(participant),
       timing_(participant),
@@ -72,6 +73,12 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
     if (scene.telemetry.momentum_every > 0) {
       momentum_.register_instance(dds::to_momentum({}, name, service_));
     }
+    for (const scene::NamedWheel& wheel : scene.spacecraft[index].wheels) {
+      if (scene.telemetry.wheel_every > 0) {
+        wheels_.register_instance(
+            dds::to_sample(runtime::WheelRecord{}, name, wheel.name, service_));
+      }
+    }
   }
 }
 
@@ -80,7 +87,8 @@ Publisher::Left Publisher::publish_some() {
   const std::size_t replies = segment_->step_replies.size();
   const bool verdicts = publish_verdicts();
   publish_control_answers();
-  const bool telemetry = publish_telemetry();
+  const bool wheels = publish_wheels();
+  const bool telemetry = publish_telemetry() || wheels;
   const bool fleet = publish_fleet();
   if (!verdicts && !telemetry) {
     publish_step_replies(replies);
@@ -160,6 +168,20 @@ bool Publisher::publish_telemetry() {
   return true;
 }
 
+bool Publisher::publish_wheels() {
+  for (int i = 0; i < kBatch; ++i) {
+    const auto record = segment_->wheels.pop();
+    if (!record) {
+      return false;
+    }
+    count_unsent(wheels_.write(
+        dds::to_sample(*record, directory_.spacecraft_name(record->spacecraft),
+                       directory_.wheel_name(record->spacecraft, record->wheel), service_)));
+    ++counts_.telemetry;
+  }
+  return true;
+}
+
 bool Publisher::publish_fleet() {
   const std::size_t chunks = chunks_of(segment_.fleet_size());
   if (next_chunk_ == chunks) {
@@ -220,6 +242,7 @@ bool Publisher::wait_for_readers(std::chrono::milliseconds timeout) {
   };
   bool all = attitude_.wait_for_acks(left());
   all = momentum_.wait_for_acks(left()) && all;
+  all = wheels_.wait_for_acks(left()) && all;
   all = fleet_.wait_for_acks(left()) && all;
   all = status_.wait_for_acks(left()) && all;
   all = timing_.wait_for_acks(left()) && all;

@@ -54,6 +54,7 @@ class Publisher {
  private:
   bool publish_verdicts();
   bool publish_telemetry();
+  bool publish_wheels();
   bool publish_fleet();
   void publish_step_replies(std::size_t count);
   void publish_control_answers();
@@ -66,6 +67,7 @@ class Publisher {
   dds::ServiceFacts facts_;
   dds::Writer<adstar_AttitudeState> attitude_;
   dds::Writer<adstar_MomentumState> momentum_;
+  dds::Writer<adstar_WheelState> wheels_;
   dds::Writer<adstar_FleetState> fleet_;
   dds::Writer<adstar_ServiceStatus> status_;
   dds::Writer<adstar_StepTiming> timing_;

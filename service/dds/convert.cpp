@@ -68,6 +68,8 @@ static_assert(runtime::kFlagUnresolvedAngle == adstar_FLAG_UNRESOLVED_ANGLE);
 static_assert(runtime::kFlagUnresolvedEdges == adstar_FLAG_UNRESOLVED_EDGES);
 static_assert(runtime::kFlagFinal == adstar_FLAG_FINAL);
 static_assert(runtime::kFlagUnresolvedDamping == adstar_FLAG_UNRESOLVED_DAMPING);
+static_assert(runtime::kWheelTorqueLimited == adstar_WHEEL_TORQUE_LIMITED);
+static_assert(runtime::kWheelSpeedLimited == adstar_WHEEL_SPEED_LIMITED);
 static_assert(runtime::kFlagLightAxis == adstar_FLAG_LIGHT_AXIS);
 static_assert(runtime::kFlagSeparatrix == adstar_FLAG_SEPARATRIX);
 static_assert(runtime::kFlagAttitudeLost == adstar_FLAG_ATTITUDE_LOST);
@@ -113,7 +115,11 @@ std::uint32_t clip32(std::uint64_t count) noexcept {
 
 }  // namespace
 
-runtime::CommandRecord to_record(const adstar_TorqueCommand& sample, std::uint32_t spacecraft,
+namespace {
+
+/// All but what is commanded.
+template <class Command>
+runtime::CommandRecord header_of(const Command& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept {
   runtime::CommandRecord record;
   record.commander = {sample.commander.high, sample.commander.low};
@@ -124,7 +130,30 @@ runtime::CommandRecord to_record(const adstar_TorqueCommand& sample, std::uint32
   record.start_ns = sample.start_time_ns;
   record.end_ns = sample.end_time_ns;
   record.duration_ns = sample.duration_ns;
+  return record;
+}
+
+}  // namespace
+
+runtime::CommandRecord to_record(const adstar_TorqueCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept {
+  runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
   record.torque_n_m = {sample.torque_n_m.x, sample.torque_n_m.y, sample.torque_n_m.z};
+  return record;
+}
+
+runtime::CommandRecord to_record(const adstar_WheelTorqueCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept {
+  runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
+  record.torque_n_m = {sample.motor_torque_n_m, 0, 0};
+  return record;
+}
+
+runtime::CommandRecord to_record(const adstar_WheelSpeedCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept {
+  runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
+  record.of_speed = 1;
+  record.torque_n_m = {sample.speed_rad_s, 0, 0};
   return record;
 }
 
@@ -143,7 +172,11 @@ adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string
   sample.priority = record.priority;
   sample.effective_start_time_ns = record.start_ns;
   sample.effective_end_time_ns = record.end_ns;
-  sample.torque_applied_n_m = vector(record.torque_n_m);
+  if (record.of_speed != 0) {
+    sample.speed_applied_rad_s = record.torque_n_m[0];
+  } else {
+    sample.torque_applied_n_m = vector(record.torque_n_m);
+  }
   return sample;
 }
 
@@ -223,6 +256,22 @@ adstar_MomentumState to_momentum(const runtime::TelemetryRecord& record,
   sample.work_j = record.work_j;
   sample.energy_residual_j = record.energy_residual_j;
   sample.momentum_residual_inertial_n_m_s = vector(record.momentum_residual_I_n_m_s);
+  sample.flags = record.flags;
+  return sample;
+}
+
+adstar_WheelState to_sample(const runtime::WheelRecord& record, std::string_view spacecraft,
+                            std::string_view wheel, std::string_view service) noexcept {
+  adstar_WheelState sample{};
+  set_text(sample.spacecraft, spacecraft);
+  set_text(sample.wheel, wheel);
+  set_text(sample.service, service);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.speed_rad_s = record.speed_rad_s;
+  sample.momentum_n_m_s = record.momentum_n_m_s;
+  sample.motor_torque_n_m = record.motor_torque_n_m;
+  sample.friction_torque_n_m = record.friction_torque_n_m;
   sample.flags = record.flags;
   return sample;
 }

@@ -37,6 +37,11 @@ std::string_view text_of(const char (&source)[N]) noexcept {
 runtime::CommandRecord to_record(const adstar_TorqueCommand& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept;
 
+runtime::CommandRecord to_record(const adstar_WheelTorqueCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept;
+runtime::CommandRecord to_record(const adstar_WheelSpeedCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept;
+
 /// The daemon's decision, on the wire.
 adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string_view spacecraft,
                                std::string_view actuator, std::string_view service) noexcept;
@@ -55,6 +60,8 @@ adstar_AttitudeState to_attitude(const runtime::TelemetryRecord& record,
                                  std::string_view spacecraft, std::string_view service) noexcept;
 adstar_MomentumState to_momentum(const runtime::TelemetryRecord& record,
                                  std::string_view spacecraft, std::string_view service) noexcept;
+adstar_WheelState to_sample(const runtime::WheelRecord& record, std::string_view spacecraft,
+                            std::string_view wheel, std::string_view service) noexcept;
 adstar_FleetMember to_member(const runtime::FleetRecord& record) noexcept;
 adstar_StepTiming to_sample(const runtime::TimingRecord& record, std::string_view service) noexcept;
 

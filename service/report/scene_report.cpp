@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "adstar/gyrostat.hpp"
 #include "adstar/integrators/all.hpp"
-#include "adstar/propagator.hpp"
 #include "service/report/numbers.hpp"
 #include "service/report/spacecraft_report.hpp"
 
@@ -57,6 +57,31 @@ std::string simulation_report(const scene::Simulation& simulation) {
   return text;
 }
 
+/// With wheels the hub's energy is the bound (adstar/gyrostat.hpp).
+double speed_bound_squared(const RigidBody<double>& hub,
+                           const std::vector<SpinningWheel<double>>& wheels,
+                           const Vec3<double>& Pi_B) {
+  const Vec3<double> hub_Pi_B = Pi_B - wheel_momentum(std::span(wheels));
+  return wheels.empty() ? angular_speed_bound_squared(hub, Pi_B, 0.0)
+                        : 2 * hub.energy(hub_Pi_B) * hub.inverse_moments()[0];
+}
+
+SubstepCount count_with_wheels(const std::string& scheme, const RigidBody<double>& hub,
+                               std::vector<SpinningWheel<double>> wheels, const Vec3<double>& Pi_B,
+                               double decay, double h, const StepLimits& limits) {
+  for (SpinningWheel<double>& spinning : wheels) {
+    spinning.order = spinning.motor.standing;
+  }
+  SubstepCount count;
+  with_scheme(scheme, [&](auto s) {
+    if constexpr (TakesWheels<decltype(s)>) {
+      count = adstar::detail::count_gyrostat_parts<decltype(s), double>(hub, wheels, Pi_B, 0.0,
+                                                                        decay, h, limits);
+    }
+  });
+  return count;
+}
+
 /// The largest turn in one step, from what the spacecraft have at the start.
 std::string turn_report(const scene::Scene& scene) {
   const StepLimits limits = limits_for(scene.simulation.scheme, scene.simulation.limits);
@@ -67,17 +92,22 @@ std::string turn_report(const scene::Scene& scene) {
   std::int64_t parts = 1;
   bool resolved = true;
   for (const scene::Spacecraft& craft : scene.spacecraft) {
-    const RigidBody<double> body(craft.inertia_body_kg_m2);
+    const std::vector<SpinningWheel<double>> wheels = scene::spinning_wheels(craft);
+    const RigidBody<double> body(hub_inertia<double>(craft.inertia_body_kg_m2, wheels));
     const Vec3<double> Pi_B = body_momentum(craft.initial);
-    const double turn = h * std::sqrt(angular_speed_bound_squared(body, Pi_B, 0.0));
+    const double turn = h * std::sqrt(speed_bound_squared(body, wheels, Pi_B));
     if (turn > largest) {
       largest = turn;
       fastest = &craft;
     }
     const Vec3<double> damping =
         adstar::detail::make_segment(std::span<const Torque<double>>(craft.torques), 0).damping;
-    const SubstepCount count = count_substeps(body, Pi_B, 0.0, h, facts.stage_reach, limits,
-                                              facts.sensitivity, decay_rate(body, damping));
+    const double decay = decay_rate(body, damping);
+    const SubstepCount count =
+        wheels.empty()
+            ? count_substeps(body, Pi_B, 0.0, h, facts.stage_reach, limits, facts.sensitivity,
+                             decay)
+            : count_with_wheels(scene.simulation.scheme, body, wheels, Pi_B, decay, h, limits);
     parts = std::max(parts, count.parts);
     resolved = resolved && count.within_limit;
   }
@@ -115,6 +145,9 @@ std::string telemetry_report(const scene::Scene& scene) {
   std::string text = "telemetry (per simulated second)\n";
   text += topic_line("attitude_state", telemetry.attitude_every, step_ns, watched);
   text += topic_line("momentum_state", telemetry.momentum_every, step_ns, watched);
+  if (telemetry.wheel_every > 0) {
+    text += topic_line("wheel_state", telemetry.wheel_every, step_ns, watched);
+  }
   text += topic_line("fleet_state", telemetry.fleet_every, step_ns, "all spacecraft");
   return text;
 }
@@ -140,16 +173,20 @@ std::string dds_report(const scene::Scene& scene) {
   return text;
 }
 
-constexpr const char* kLeftOut =
-    "not modelled\n"
-    "  orbit and translation, gravity gradient, magnetic, aerodynamic and solar-radiation torque,\n"
-    "  reaction wheels, flexible bodies, fuel slosh\n";
+std::string left_out(const scene::Scene& scene) {
+  const bool wheels = scene::first_with_wheels(scene.spacecraft) != nullptr;
+  return std::string(
+             "not modelled\n"
+             "  orbit and translation, gravity gradient, magnetic, aerodynamic and solar-radiation "
+             "torque,\n  ") +
+         (wheels ? "" : "reaction wheels, ") + "flexible bodies, fuel slosh\n";
+}
 
 }  // namespace
 
 std::string scene_report(const scene::Scene& scene) {
   return simulation_report(scene.simulation) + spacecraft_report(scene.spacecraft) +
-         turn_report(scene) + telemetry_report(scene) + dds_report(scene) + kLeftOut;
+         turn_report(scene) + telemetry_report(scene) + dds_report(scene) + left_out(scene);
 }
 
 }  // namespace adstar::report

@@ -4,11 +4,13 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <span>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
-#include "adstar/bodies/rigid_body.hpp"
+#include "adstar/bodies/gyrostat.hpp"
 #include "service/report/numbers.hpp"
 
 namespace adstar::report {
@@ -69,7 +71,7 @@ std::string torque_lines(const scene::Spacecraft& craft) {
           if constexpr (std::is_same_v<Model, Commanded<double>>) {
             const auto actuator =
                 std::find_if(craft.actuators.begin(), craft.actuators.end(),
-                             [&](const scene::Actuator& a) { return a.torque == i; });
+                             [&](const scene::Actuator& a) { return !a.wheel && a.torque == i; });
             what = fmt::format("actuator '{}', at most {} N m", actuator->name,
                                vector_text(actuator->max_torque_n_m));
           } else {
@@ -83,6 +85,42 @@ std::string torque_lines(const scene::Spacecraft& craft) {
   return text.empty() ? "    torque    none: free rotation\n" : text;
 }
 
+std::string motor_text(const SpinningWheel<double>& spinning, bool commanded) {
+  const Wheel<double>& wheel = spinning.wheel;
+  if (wheel.constant_speed) {
+    return ", at constant speed";
+  }
+  if (!(wheel.max_torque_n_m > 0)) {
+    return ", no motor";
+  }
+  const MotorOrder<double>& order = spinning.motor.standing;
+  return fmt::format(", motor {} N m up to {} rad/s, {}{}", short_number(wheel.max_torque_n_m),
+                     short_number(wheel.max_speed_rad_s),
+                     order.of_speed ? "holds " + short_number(order.value) + " rad/s"
+                                    : "gives " + short_number(order.value) + " N m",
+                     commanded ? " unless commanded" : "");
+}
+
+std::string wheel_lines(const scene::Spacecraft& craft) {
+  std::string text;
+  for (std::size_t i = 0; i < craft.wheels.size(); ++i) {
+    const Wheel<double>& wheel = craft.wheels[i].at_start.wheel;
+    const bool commanded =
+        std::any_of(craft.actuators.begin(), craft.actuators.end(),
+                    [&](const scene::Actuator& actuator) { return actuator.wheel == i; });
+    std::string friction;
+    if (wheel.viscous_n_m_s_rad > 0 || wheel.coulomb_n_m > 0) {
+      friction =
+          fmt::format(", friction {} N m s/rad + {} N m", short_number(wheel.viscous_n_m_s_rad),
+                      short_number(wheel.coulomb_n_m));
+    }
+    text += fmt::format("    wheel     '{}' about {}, {} kg m^2{}{}\n", craft.wheels[i].name,
+                        vector_text(wheel.axis_B), short_number(wheel.spin_inertia_kg_m2),
+                        motor_text(craft.wheels[i].at_start, commanded), friction);
+  }
+  return text;
+}
+
 void add(Group& group, const scene::Spacecraft& craft) {
   const RigidBody<double> body(craft.inertia_body_kg_m2);
   group.first = group.count == 0 ? craft.name : group.first;
@@ -91,7 +129,10 @@ void add(Group& group, const scene::Spacecraft& craft) {
   for (std::size_t i = 0; i < 3; ++i) {
     group.moments[i].add(body.moments()[i]);
   }
-  group.rate.add(norm(body.angular_velocity(body_momentum(craft.initial))));
+  const std::vector<SpinningWheel<double>> wheels = scene::spinning_wheels(craft);
+  const RigidBody<double> hub(hub_inertia<double>(craft.inertia_body_kg_m2, wheels));
+  group.rate.add(
+      norm(angular_velocity(hub, std::span(std::as_const(wheels)), body_momentum(craft.initial))));
   group.momentum.add(norm(craft.initial.H_I.value()));
 }
 
@@ -116,7 +157,7 @@ std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft) 
   std::vector<Group> groups;
   std::map<std::string, std::size_t> by_torques;
   for (const scene::Spacecraft& craft : spacecraft) {
-    std::string torques = torque_lines(craft);
+    std::string torques = torque_lines(craft) + wheel_lines(craft);
     const auto [place, fresh] = by_torques.emplace(torques, groups.size());
     if (fresh) {
       groups.emplace_back();

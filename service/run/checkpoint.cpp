@@ -9,7 +9,7 @@ namespace adstar::run {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'a', 'd', 's', 't', 'a', 'r', 'c', 'p'};
-constexpr std::uint64_t kFormat = 1;
+constexpr std::uint64_t kFormat = 2;
 
 struct Header {
   std::array<char, 8> magic = kMagic;
@@ -21,23 +21,29 @@ struct Header {
   std::uint64_t next_number = 0;
   std::uint64_t first_journal = 0;
   std::uint64_t vehicles = 0;
+  std::uint64_t wheels = 0;
   std::uint64_t gate_words = 0;
   std::uint64_t control_words = 0;
 };
 
-std::span<const std::byte> bytes_of(const std::vector<runtime::VehicleState>& vehicles) {
-  return std::as_bytes(std::span(vehicles));
-}
-
 }  // namespace
 
 Bytes to_bytes(const Checkpoint& c) {
-  const Header header{kMagic,        kFormat,          c.run,
-                      c.fingerprint, c.at.resets,      c.at.step,
-                      c.next_number, c.first_journal,  c.vehicles.size(),
-                      c.gate.size(), c.controls.size()};
+  const Header header{kMagic,
+                      kFormat,
+                      c.run,
+                      c.fingerprint,
+                      c.at.resets,
+                      c.at.step,
+                      c.next_number,
+                      c.first_journal,
+                      c.fleet.vehicles.size(),
+                      c.fleet.wheel_momenta.size(),
+                      c.gate.size(),
+                      c.controls.size()};
   const std::span<const std::byte> parts[] = {
-      std::as_bytes(std::span(&header, 1)), bytes_of(c.vehicles), std::as_bytes(std::span(c.gate)),
+      std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(c.fleet.vehicles)),
+      std::as_bytes(std::span(c.fleet.wheel_momenta)), std::as_bytes(std::span(c.gate)),
       std::as_bytes(std::span(c.controls))};
   std::size_t length = 0;
   for (const auto& part : parts) {
@@ -64,10 +70,12 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
   }
   // Each count against what is there before it is multiplied: they may be anything.
   constexpr std::uint64_t kVehicle = sizeof(runtime::VehicleState);
+  constexpr std::uint64_t kWheel = sizeof(Sum<double>);
   const std::uint64_t most_words = bytes.size() / 8;
-  if (header->vehicles > bytes.size() / kVehicle || header->gate_words > most_words ||
-      header->control_words > most_words ||
-      header->vehicles * kVehicle + (header->gate_words + header->control_words + 1) * 8 !=
+  if (header->vehicles > bytes.size() / kVehicle || header->wheels > bytes.size() / kWheel ||
+      header->gate_words > most_words || header->control_words > most_words ||
+      header->vehicles * kVehicle + header->wheels * kWheel +
+              (header->gate_words + header->control_words + 1) * 8 !=
           bytes.size()) {
     throw RunError("is cut off or changed: its length is not what it says");
   }
@@ -79,7 +87,8 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
                {},
                {},
                {}};
-  c.vehicles.resize(header->vehicles);
+  c.fleet.vehicles.resize(header->vehicles);
+  c.fleet.wheel_momenta.resize(header->wheels);
   c.gate.resize(header->gate_words);
   c.controls.resize(header->control_words);
   const auto fill = [&bytes](auto& records) {
@@ -87,7 +96,8 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
     std::copy_n(bytes.begin(), room.size(), room.begin());
     bytes = bytes.subspan(room.size());
   };
-  fill(c.vehicles);
+  fill(c.fleet.vehicles);
+  fill(c.fleet.wheel_momenta);
   fill(c.gate);
   fill(c.controls);
   if (take<std::uint64_t>(bytes) != checksum(whole.first(whole.size() - 8))) {
@@ -96,8 +106,9 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
   return c;
 }
 
-std::uint64_t state_hash(std::uint64_t step, const std::vector<runtime::VehicleState>& vehicles) {
-  const std::array<std::uint64_t, 2> parts{step, checksum(bytes_of(vehicles))};
+std::uint64_t state_hash(std::uint64_t step, const runtime::FleetState& fleet) {
+  const std::array<std::uint64_t, 3> parts{step, checksum(std::as_bytes(std::span(fleet.vehicles))),
+                                           checksum(std::as_bytes(std::span(fleet.wheel_momenta)))};
   return checksum(std::as_bytes(std::span(parts)));
 }
 

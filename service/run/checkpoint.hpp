@@ -17,7 +17,7 @@ struct Checkpoint {
   runtime::Instant at;
   std::uint64_t next_number = 1;    ///< of the first journal record that is not in here
   std::uint64_t first_journal = 1;  ///< count of the oldest journal file with such a record
-  std::vector<runtime::VehicleState> vehicles;
+  runtime::FleetState fleet;
   std::vector<std::uint64_t> gate;      ///< CommandGate::save
   std::vector<std::uint64_t> controls;  ///< ControlMemory::save
 };
@@ -28,6 +28,6 @@ Bytes to_bytes(const Checkpoint& checkpoint);
 Checkpoint checkpoint_from(std::span<const std::byte> bytes);
 
 /// Of the state alone: what two daemons that fly the same must have in common.
-std::uint64_t state_hash(std::uint64_t step, const std::vector<runtime::VehicleState>& vehicles);
+std::uint64_t state_hash(std::uint64_t step, const runtime::FleetState& fleet);
 
 }  // namespace adstar::run

@@ -18,8 +18,9 @@ namespace {
 
 using runtime::VehicleState;
 
-bool same_bits(const VehicleState& a, const VehicleState& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 std::map<Instant, Checkpoint> whole_checkpoints(const RunDirectory& directory,
@@ -31,7 +32,7 @@ std::map<Instant, Checkpoint> whole_checkpoints(const RunDirectory& directory,
     try {
       Checkpoint checkpoint = checkpoint_from(read_bytes(file.path));
       if (checkpoint.fingerprint != fingerprint || checkpoint.run != directory.facts().run ||
-          checkpoint.vehicles.size() != scene.spacecraft.size()) {
+          !fits(checkpoint, scene)) {
         throw RunError("does not belong to this run and its scene");
       }
       whole.emplace(checkpoint.at, std::move(checkpoint));
@@ -43,12 +44,15 @@ std::map<Instant, Checkpoint> whole_checkpoints(const RunDirectory& directory,
 }
 
 /// What a checkpoint holds that the flight does not; empty: nothing.
-std::string difference(const Checkpoint& checkpoint, const std::vector<VehicleState>& states,
+std::string difference(const Checkpoint& checkpoint, const runtime::FleetState& state,
                        const runtime::CommandGate& gate, const scene::Scene& scene) {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    if (!same_bits(checkpoint.vehicles[i], states[i])) {
+  for (std::size_t i = 0; i < state.vehicles.size(); ++i) {
+    if (std::memcmp(&checkpoint.fleet.vehicles[i], &state.vehicles[i], sizeof(VehicleState)) != 0) {
       return "the state of spacecraft '" + scene.spacecraft[i].name + "'";
     }
+  }
+  if (!same_bits(checkpoint.fleet.wheel_momenta, state.wheel_momenta)) {
+    return "the momentum of a wheel";
   }
   return gate.save() == checkpoint.gate ? "" : "the schedule of commands";
 }
@@ -109,10 +113,10 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
     if (flight.at != stop) {
       break;  // beyond a gap
     }
-    const std::vector<VehicleState> states = runtime::states_of(fleet);
+    const runtime::FleetState state = runtime::state_of(fleet);
     if (const auto hash = hashes.find(stop); hash != hashes.end()) {
       ++result.hashes;
-      if (hash->second != state_hash(stop.step, states)) {
+      if (hash->second != state_hash(stop.step, state)) {
         result.differs_at = stop;
       }
     }
@@ -127,7 +131,7 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
       left = left.subspan(heard);
       result.heard += heard;
       verdicts->skip_all();
-      if (const std::string what = difference(checkpoint->second, states, gate, scene);
+      if (const std::string what = difference(checkpoint->second, state, gate, scene);
           !what.empty()) {
         result.differs_at = stop;
         result.differs_in = what;

@@ -124,7 +124,7 @@ std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
       const auto answers = std::make_unique<runtime::ControlAnswerRing>();
       runtime::CommandGate gate(scene.spacecraft, *verdicts);
       runtime::ControlMemory controls(*answers);
-      if (checkpoint.vehicles.size() != scene.spacecraft.size() || !gate.load(checkpoint.gate) ||
+      if (!fits(checkpoint, scene) || !gate.load(checkpoint.gate) ||
           !controls.load(checkpoint.controls)) {
         throw RunError("does not fit its scene");
       }
@@ -143,12 +143,16 @@ bool set_to(Flight& flight, const Checkpoint& checkpoint) {
   if (!flight.gate.load(checkpoint.gate) || !flight.controls.load(checkpoint.controls)) {
     return false;
   }
-  if (flight.fleet != nullptr) {
-    for (std::size_t i = 0; i < checkpoint.vehicles.size(); ++i) {
-      restore(*flight.fleet, i, checkpoint.vehicles[i]);
-    }
+  return flight.fleet == nullptr || restore(*flight.fleet, checkpoint.fleet);
+}
+
+bool fits(const Checkpoint& checkpoint, const scene::Scene& scene) {
+  std::size_t wheels = 0;
+  for (const scene::Spacecraft& craft : scene.spacecraft) {
+    wheels += craft.wheels.size();
   }
-  return true;
+  return checkpoint.fleet.vehicles.size() == scene.spacecraft.size() &&
+         checkpoint.fleet.wheel_momenta.size() == wheels;
 }
 
 Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,

@@ -39,6 +39,9 @@ std::optional<Checkpoint> newest_checkpoint(const RunDirectory& directory,
 /// is to be thrown away.
 bool set_to(Flight& flight, const Checkpoint& checkpoint);
 
+/// Whether it is of a fleet of that shape.
+bool fits(const Checkpoint& checkpoint, const scene::Scene& scene);
+
 struct Resumed {
   Instant checkpoint;  ///< where it began
   RunRecords records;

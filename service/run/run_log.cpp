@@ -59,7 +59,7 @@ void RunLog::note_hash(const Instant& at, std::uint64_t hash) {
   journal_.append(std::span(&record, 1));
 }
 
-void RunLog::write_checkpoint(const Instant& at, const std::vector<runtime::VehicleState>& vehicles,
+void RunLog::write_checkpoint(const Instant& at, const runtime::FleetState& fleet,
                               bool keep_all_journals) {
   const std::vector<JournalRecord> records(unheard_.begin(), unheard_.end());
   const std::size_t heard = carry_on(flight_, records, at);
@@ -74,7 +74,7 @@ void RunLog::write_checkpoint(const Instant& at, const std::vector<runtime::Vehi
                               at,
                               next_number_,
                               keep_all_journals ? 1 : first_journal,
-                              vehicles,
+                              fleet,
                               gate_.save(),
                               controls_.save()};
   const std::filesystem::path path = directory_.checkpoint_path(next_checkpoint_);

@@ -35,7 +35,7 @@ class RunLog {
 
   /// A checkpoint of the fleet there, all of whose commands were moved. The three newest are kept; of
   /// the journal what they need, or all of it.
-  void write_checkpoint(const Instant& at, const std::vector<runtime::VehicleState>& vehicles,
+  void write_checkpoint(const Instant& at, const runtime::FleetState& fleet,
                         bool keep_all_journals);
 
  private:

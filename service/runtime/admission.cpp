@@ -28,6 +28,12 @@ scene::Spacecraft at_its_dearest(scene::Spacecraft craft) {
     craft.initial = make_state(craft.initial.q_IB, body.momentum({kRate, kRate, kRate}));
   }
   for (const scene::Actuator& actuator : craft.actuators) {
+    if (actuator.wheel) {
+      Motor<double>& motor = craft.wheels[*actuator.wheel].at_start.motor;
+      motor.window[0] = {0, kNever, {false, actuator.max_torque_n_m.x}};
+      motor.intervals = 1;
+      continue;
+    }
     auto& commanded = std::get<Commanded<double>>(craft.torques[actuator.torque]);
     commanded.window[0] = {0, kNever, actuator.max_torque_n_m};
     commanded.intervals = 1;

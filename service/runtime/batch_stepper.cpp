@@ -36,17 +36,6 @@ constexpr Segment kNoTorque{};
 
 enum class Kind { free, body, ramps, varying };
 
-bool has_edge_before(std::span<const Torque<double>> torques, std::int64_t t_ns,
-                     std::int64_t end_ns) noexcept {
-  for (const Torque<double>& torque : torques) {
-    if (std::visit([&](const auto& model) { return model.next_edge_after(t_ns); }, torque) <
-        end_ns) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// As run_segment() in adstar/propagator.hpp chooses the form of the step.
 Kind kind_of(const Segment& segment) noexcept {
   if (segment.varying) {
@@ -142,7 +131,7 @@ class BatchStepper final : public Stepper {
         unresolved += step_alone(step, member);  // no step at all: a kernel would renormalise
       } else if (torques.empty()) {
         unresolved += put(step, Kind::free, member, kNoTorque);
-      } else if (has_edge_before(torques, t_ns, t_ns + h_ns)) {
+      } else if (adstar::detail::next_edge_after(torques, t_ns) < t_ns + h_ns) {
         unresolved += step_alone(step, member);
       } else {
         const Segment segment = adstar::detail::make_segment(torques, t_ns);

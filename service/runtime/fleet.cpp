@@ -1,6 +1,7 @@
 #include "service/runtime/fleet.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -8,6 +9,7 @@
 #include "service/runtime/batch_stepper.hpp"
 #include "service/runtime/threaded_stepper.hpp"
 #include "service/runtime/vehicle_step.hpp"
+#include "service/runtime/wheel_stepper.hpp"
 
 namespace adstar::runtime {
 namespace {
@@ -26,7 +28,12 @@ void open_accounts(Vehicle& vehicle) noexcept {
   vehicle.state.impulse_I = {};
   vehicle.state.work = {};
   vehicle.H_0 = vehicle.state.H_I.value();
-  vehicle.E_0 = vehicle.body.energy(body_momentum(vehicle.state));
+  vehicle.E_0 = energy_of(vehicle);
+}
+
+/// The scene's own condition for a motion: its energy and momentum are finite.
+bool can_turn(const RigidBody<double>& body, const Vec3<double>& Pi_B) noexcept {
+  return std::isfinite(angular_speed_bound_squared(body, Pi_B, 0.0));
 }
 
 template <class Scheme>
@@ -75,8 +82,8 @@ std::optional<batch::InstructionSet> chosen(Lanewise lanewise, std::string_view 
   return set;
 }
 
-std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::string_view scheme,
-                                      Lanewise lanewise) {
+std::unique_ptr<Stepper> make_plain_stepper(std::span<const Vehicle> vehicles,
+                                            std::string_view scheme, Lanewise lanewise) {
   if (const auto set = chosen(lanewise, scheme, vehicles.size())) {
     return make_batch_stepper(vehicles, scheme, *set);
   }
@@ -89,7 +96,81 @@ std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::st
   return stepper;
 }
 
+/// Neighbours that have wheels, and neighbours that have none, each by a stepper of their own: those without
+/// fill lanes as ever.
+class RunsStepper final : public Stepper {
+ public:
+  RunsStepper(std::span<const Vehicle> vehicles, std::string_view scheme, Lanewise lanewise) {
+    for (std::size_t first = 0; first < vehicles.size();) {
+      std::size_t end = first + 1;
+      const bool wheels = vehicles[first].wheels != nullptr;
+      while (end < vehicles.size() && (vehicles[end].wheels != nullptr) == wheels) {
+        ++end;
+      }
+      const std::span<const Vehicle> run = vehicles.subspan(first, end - first);
+      runs_.push_back(
+          {first, run.size(),
+           wheels ? make_wheel_stepper(scheme) : make_plain_stepper(run, scheme, lanewise)});
+      first = end;
+    }
+  }
+
+  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
+                   const StepLimits& limits) noexcept override {
+    std::size_t unresolved = 0;
+    for (Run& run : runs_) {
+      unresolved += run.stepper->step(vehicles.subspan(run.first, run.count), t_ns, h_ns, limits);
+    }
+    return unresolved;
+  }
+
+  void replace_body(std::size_t vehicle, const RigidBody<double>& body) noexcept override {
+    for (Run& run : runs_) {
+      if (vehicle - run.first < run.count) {
+        run.stepper->replace_body(vehicle - run.first, body);
+      }
+    }
+  }
+
+ private:
+  struct Run {
+    std::size_t first = 0, count = 0;
+    std::unique_ptr<Stepper> stepper;
+  };
+  std::vector<Run> runs_;
+};
+
+std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::string_view scheme,
+                                      Lanewise lanewise) {
+  const bool plain = std::none_of(vehicles.begin(), vehicles.end(),
+                                  [](const Vehicle& v) { return v.wheels != nullptr; });
+  return plain ? make_plain_stepper(vehicles, scheme, lanewise)
+               : std::make_unique<RunsStepper>(vehicles, scheme, lanewise);
+}
+
+std::unique_ptr<Wheels> make_wheels(const scene::Spacecraft& craft) {
+  if (craft.wheels.empty()) {
+    return nullptr;
+  }
+  std::vector<SpinningWheel<double>> spinning = scene::spinning_wheels(craft);
+  RigidBody<double> hub(hub_inertia<double>(craft.inertia_body_kg_m2, spinning));
+  return std::make_unique<Wheels>(Wheels{std::move(hub), std::move(spinning)});
+}
+
 }  // namespace
+
+Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept {
+  const Vec3<double> Pi_B = body_momentum(vehicle.state);
+  return vehicle.wheels == nullptr
+             ? vehicle.body.angular_velocity(Pi_B)
+             : angular_velocity(vehicle.wheels->hub, vehicle.wheels->all(), Pi_B);
+}
+
+double energy_of(const Vehicle& vehicle) noexcept {
+  const Vec3<double> Pi_B = body_momentum(vehicle.state);
+  return vehicle.wheels == nullptr ? vehicle.body.energy(Pi_B)
+                                   : energy(vehicle.wheels->hub, vehicle.wheels->all(), Pi_B);
+}
 
 Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
              const StepLimits& limits, Lanewise lanewise, std::size_t threads)
@@ -97,7 +178,8 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
     Vehicle vehicle{
-        craft.initial, craft.torques, 0, RigidBody<double>(craft.inertia_body_kg_m2), {}};
+        craft.initial,     craft.torques, 0, RigidBody<double>(craft.inertia_body_kg_m2), {}, 0,
+        make_wheels(craft)};
     open_accounts(vehicle);
     vehicles_.push_back(std::move(vehicle));
   }
@@ -112,16 +194,58 @@ void Fleet::set_state(std::size_t vehicle, const Quat<double>& q_IB,
   open_accounts(vehicles_[vehicle]);
 }
 
-void Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept {
-  vehicles_[vehicle].body = body;
+bool Fleet::set_motion(std::size_t vehicle, const Quat<double>& q_IB,
+                       const Vec3<double>& omega_B) noexcept {
+  const Vehicle& moved = vehicles_[vehicle];
+  const Vec3<double> rates = angular_velocity_of(moved);
+  Vec3<double> Pi_B = moved.body.momentum(omega_B);
+  if (moved.wheels != nullptr) {
+    for (const SpinningWheel<double>& spinning : moved.wheels->spinning) {
+      Pi_B = Pi_B +
+             (spinning.wheel.spin_inertia_kg_m2 * spinning.speed(rates)) * spinning.wheel.axis_B;
+    }
+  }
+  if (!can_turn(moved.body, Pi_B)) {
+    return false;
+  }
+  if (moved.wheels != nullptr) {
+    for (SpinningWheel<double>& spinning : moved.wheels->spinning) {
+      spinning.keep_speed(rates, omega_B);
+    }
+  }
+  set_state(vehicle, q_IB, rotate(normalised(q_IB), Pi_B));
+  return true;
+}
+
+bool Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept {
+  Vehicle& changed = vehicles_[vehicle];
+  if (!can_turn(body, body_momentum(changed.state))) {
+    return false;
+  }
+  if (changed.wheels != nullptr) {
+    const RigidBody<double> hub(
+        hub_inertia<double>(matrix_of(body.inertia()), changed.wheels->spinning));
+    if (!is_body_beside_wheels(hub)) {
+      return false;
+    }
+    changed.wheels->hub = hub;
+  }
+  changed.body = body;
   stepper_->replace_body(vehicle, body);
-  open_accounts(vehicles_[vehicle]);
+  open_accounts(changed);
+  return true;
 }
 
 void Fleet::keep_start() {
   start_.reserve(vehicles_.size());
   for (const Vehicle& vehicle : vehicles_) {
-    start_.push_back({vehicle.state, vehicle.body, vehicle.H_0, vehicle.E_0});
+    std::vector<Sum<double>> momenta;
+    if (vehicle.wheels != nullptr) {
+      for (const SpinningWheel<double>& spinning : vehicle.wheels->spinning) {
+        momenta.push_back(spinning.h);
+      }
+    }
+    start_.push_back({vehicle.state, vehicle.body, vehicle.H_0, vehicle.E_0, std::move(momenta)});
   }
 }
 
@@ -132,12 +256,17 @@ bool Fleet::reset() noexcept {
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     Vehicle& vehicle = vehicles_[i];
     const Start& start = start_[i];
-    vehicle.state = start.state;
     vehicle.flags = 0;
+    if (start.body.inertia() != vehicle.body.inertia()) {
+      set_body(i, start.body);
+    }
+    vehicle.state = start.state;
+    for (std::size_t k = 0; k < start.wheel_momenta.size(); ++k) {
+      vehicle.wheels->spinning[k].h = start.wheel_momenta[k];
+      vehicle.wheels->spinning[k].motor.intervals = 0;
+    }
     vehicle.H_0 = start.H_0;
     vehicle.E_0 = start.E_0;
-    vehicle.body = start.body;
-    stepper_->replace_body(i, start.body);
     for (Torque<double>& torque : vehicle.torques) {
       if (auto* const commanded = std::get_if<Commanded<double>>(&torque)) {
         commanded->intervals = 0;
@@ -153,13 +282,28 @@ TelemetryRecord sample(const Vehicle& vehicle) noexcept {
   const Vec3<double> Pi_B = body_momentum(state);
   record.flags = vehicle.flags;
   record.q_IB = {state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
-  assign(record.omega_B_rad_s, vehicle.body.angular_velocity(Pi_B));
+  assign(record.omega_B_rad_s, angular_velocity_of(vehicle));
   assign(record.H_I_n_m_s, state.H_I.value());
   assign(record.Pi_B_n_m_s, Pi_B);
-  record.rotational_energy_j = vehicle.body.energy(Pi_B);
+  record.rotational_energy_j = energy_of(vehicle);
   record.work_j = state.work.value;
   record.energy_residual_j = (record.rotational_energy_j - vehicle.E_0) - record.work_j;
   assign(record.momentum_residual_I_n_m_s, momentum_residual(vehicle));
+  return record;
+}
+
+WheelRecord sample(const SpinningWheel<double>& spinning, const Vec3<double>& omega_B) noexcept {
+  WheelRecord record;
+  record.speed_rad_s = spinning.speed(omega_B);
+  record.momentum_n_m_s = spinning.h.value;
+  if (!spinning.wheel.constant_speed) {
+    const MotorTorque<double> motor =
+        motor_torque(spinning.wheel, spinning.order, record.speed_rad_s);
+    record.motor_torque_n_m = motor.given;
+    record.friction_torque_n_m = friction_torque(spinning.wheel, record.speed_rad_s);
+    record.flags = (motor.torque_limited ? kWheelTorqueLimited : 0U) |
+                   (motor.speed_limited ? kWheelSpeedLimited : 0U);
+  }
   return record;
 }
 

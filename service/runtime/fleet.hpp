@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "adstar/bodies/gyrostat.hpp"
 #include "adstar/bodies/rigid_body.hpp"
 #include "adstar/propagator.hpp"
 #include "service/runtime/records.hpp"
@@ -14,15 +15,29 @@
 
 namespace adstar::runtime {
 
+/// The wheels of a vehicle that has some.
+struct Wheels {
+  RigidBody<double> hub;  ///< J_r: the body without what turns freely
+  std::vector<SpinningWheel<double>> spinning;
+
+  std::span<const SpinningWheel<double>> all() const noexcept { return spinning; }
+};
+
 /// What every step touches stands first, in three cache lines.
 struct alignas(64) Vehicle {
   State<double> state;
   std::vector<Torque<double>> torques;  ///< only the models that its scene names
   std::uint32_t flags = 0;              ///< kFlagUnresolved... of the last step
-  RigidBody<double> body;
-  Vec3<double> H_0;  ///< inertial momentum at t = 0 [N m s]
-  double E_0 = 0;    ///< rotational energy at t = 0 [J]
+  RigidBody<double> body;               ///< wheels locked
+  Vec3<double> H_0;                     ///< inertial momentum at t = 0 [N m s]
+  double E_0 = 0;                       ///< rotational energy at t = 0 [J]
+  std::unique_ptr<Wheels> wheels;       ///< null: none
 };
+
+/// omega_B [rad/s]
+Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept;
+/// Of the body and the wheels [J].
+double energy_of(const Vehicle& vehicle) noexcept;
 
 /// Steps all vehicles with one scheme; keeps what that scheme prepares once for each body.
 class Stepper {
@@ -56,9 +71,15 @@ class Fleet {
   /// begin anew. Between steps, like the two below.
   void set_state(std::size_t vehicle, const Quat<double>& q_IB, const Vec3<double>& H_I) noexcept;
 
-  /// Another mass distribution: momentum and attitude keep their bits, the rate changes. The accounts
-  /// begin anew.
-  void set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept;
+  /// The same of a vehicle with or without wheels, by its rate: wheels keep their speeds. False, and
+  /// nothing is changed, when that is a motion beyond the range of double.
+  bool set_motion(std::size_t vehicle, const Quat<double>& q_IB,
+                  const Vec3<double>& omega_B) noexcept;
+
+  /// Another mass distribution, wheels locked: all momenta and the attitude keep their bits, the rate changes.
+  /// The accounts begin anew. False, and nothing is changed, when it leaves no body beside the wheels, or a
+  /// motion beyond the range of double.
+  bool set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept;
 
   /// Keeps a copy of what the vehicles are now, for reset().
   void keep_start();
@@ -74,6 +95,7 @@ class Fleet {
     RigidBody<double> body;
     Vec3<double> H_0;
     double E_0 = 0;
+    std::vector<Sum<double>> wheel_momenta;
   };
 
   std::vector<Vehicle> vehicles_;
@@ -85,6 +107,9 @@ class Fleet {
 /// Everything that is said of one vehicle at one instant; spacecraft, topics, step and time are the
 /// caller's.
 TelemetryRecord sample(const Vehicle& vehicle) noexcept;
+
+/// The same of a wheel of a vehicle that turns at omega_B.
+WheelRecord sample(const SpinningWheel<double>& spinning, const Vec3<double>& omega_B) noexcept;
 
 /// |H_I - H_0 - impulse| / max(|H_I|, |impulse|); 0 at rest, NaN when the momentum is no number.
 double momentum_residual_relative(const Vehicle& vehicle) noexcept;

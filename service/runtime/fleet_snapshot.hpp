@@ -28,31 +28,70 @@ inline VehicleState state_of(const Vehicle& vehicle) noexcept {
   return {vehicle.state, vehicle.flags, vehicle.H_0, vehicle.E_0, vehicle.body.inertia()};
 }
 
-inline bool same(const Sym3<double>& a, const Sym3<double>& b) noexcept {
-  return a.xx == b.xx && a.yy == b.yy && a.zz == b.zz && a.xy == b.xy && a.xz == b.xz &&
-         a.yz == b.yz;
+/// All of a fleet that changes.
+struct FleetState {
+  std::vector<VehicleState> vehicles;
+  std::vector<Sum<double>> wheel_momenta;  ///< h of all wheels, vehicle by vehicle [N m s]
+};
+
+/// Room for it, in the fleet's shape.
+inline FleetState blank_state(const std::vector<Vehicle>& vehicles) {
+  FleetState state;
+  state.vehicles.resize(vehicles.size());
+  std::size_t wheels = 0;
+  for (const Vehicle& vehicle : vehicles) {
+    wheels += vehicle.wheels == nullptr ? 0 : vehicle.wheels->spinning.size();
+  }
+  state.wheel_momenta.resize(wheels);
+  return state;
 }
 
-inline std::vector<VehicleState> states_of(const Fleet& fleet) {
-  std::vector<VehicleState> states;
-  for (const Vehicle& vehicle : fleet.vehicles()) {
-    states.push_back(state_of(vehicle));
+/// Into a state of that shape.
+inline void copy_state(const std::vector<Vehicle>& vehicles, FleetState& state) noexcept {
+  std::size_t wheel = 0;
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    state.vehicles[i] = state_of(vehicles[i]);
+    if (vehicles[i].wheels != nullptr) {
+      for (const SpinningWheel<double>& spinning : vehicles[i].wheels->spinning) {
+        state.wheel_momenta[wheel++] = spinning.h;
+      }
+    }
   }
-  return states;
 }
 
-/// May throw nothing but is not for the tick: a body that was changed is prepared anew.
-inline void restore(Fleet& fleet, std::size_t index, const VehicleState& saved) {
-  Vehicle& vehicle = fleet.vehicles()[index];
-  if (const Sym3<double>& J = saved.inertia_B; !same(J, vehicle.body.inertia())) {
-    Eigen::Matrix3d inertia;
-    inertia << J.xx, J.xy, J.xz, J.xy, J.yy, J.yz, J.xz, J.yz, J.zz;
-    fleet.set_body(index, RigidBody<double>(inertia));
+inline FleetState state_of(const Fleet& fleet) {
+  FleetState state = blank_state(fleet.vehicles());
+  copy_state(fleet.vehicles(), state);
+  return state;
+}
+
+/// False, and the fleet is as it was, for the state of another one. Not for the tick: a body that was changed is
+/// prepared anew.
+inline bool restore(Fleet& fleet, const FleetState& saved) {
+  const FleetState shape = blank_state(fleet.vehicles());
+  if (saved.vehicles.size() != shape.vehicles.size() ||
+      saved.wheel_momenta.size() != shape.wheel_momenta.size()) {
+    return false;
   }
-  vehicle.state = saved.state;
-  vehicle.flags = static_cast<std::uint32_t>(saved.flags);
-  vehicle.H_0 = saved.H_0;
-  vehicle.E_0 = saved.E_0;
+  std::size_t wheel = 0;
+  for (std::size_t i = 0; i < saved.vehicles.size(); ++i) {
+    Vehicle& vehicle = fleet.vehicles()[i];
+    const VehicleState& state = saved.vehicles[i];
+    vehicle.state = state.state;
+    if (state.inertia_B != vehicle.body.inertia()) {
+      fleet.set_body(i, RigidBody<double>(matrix_of(state.inertia_B)));
+      vehicle.state = state.state;
+    }
+    vehicle.flags = static_cast<std::uint32_t>(state.flags);
+    vehicle.H_0 = state.H_0;
+    vehicle.E_0 = state.E_0;
+    if (vehicle.wheels != nullptr) {
+      for (SpinningWheel<double>& spinning : vehicle.wheels->spinning) {
+        spinning.h = saved.wheel_momenta[wheel++];
+      }
+    }
+  }
+  return true;
 }
 
 /// Where a run is. A reset sets its steps back; how often that was comes first.
@@ -65,16 +104,14 @@ struct Instant {
 /// One snapshot at a time: the writer leaves out what the reader has no time for.
 class FleetSnapshot {
  public:
-  explicit FleetSnapshot(std::size_t vehicles) : vehicles_(vehicles) {}
+  explicit FleetSnapshot(const Fleet& fleet) : state_(blank_state(fleet.vehicles())) {}
 
   /// The tick's. False when the last one is still being read.
   bool offer(const std::vector<Vehicle>& vehicles, Instant at) noexcept {
     if (full_.load(std::memory_order_acquire)) {
       return false;
     }
-    for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      vehicles_[i] = state_of(vehicles[i]);
-    }
+    copy_state(vehicles, state_);
     at_ = at;
     full_.store(true, std::memory_order_release);
     return true;
@@ -83,11 +120,11 @@ class FleetSnapshot {
   /// The reader's: whether there is one; then the rest may be read until done().
   bool ready() const noexcept { return full_.load(std::memory_order_acquire); }
   Instant at() const noexcept { return at_; }
-  const std::vector<VehicleState>& vehicles() const noexcept { return vehicles_; }
+  const FleetState& state() const noexcept { return state_; }
   void done() noexcept { full_.store(false, std::memory_order_release); }
 
  private:
-  std::vector<VehicleState> vehicles_;
+  FleetState state_;
   Instant at_;
   std::atomic<bool> full_{false};
 };

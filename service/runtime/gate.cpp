@@ -22,8 +22,10 @@ CommandGate::CommandGate(const std::vector<scene::Spacecraft>& spacecraft, Verdi
     first_actuator_.push_back(static_cast<std::uint32_t>(actuators_.size()));
     const auto& declared = spacecraft[i].actuators;
     for (std::uint32_t j = 0; j < declared.size(); ++j) {
-      actuators_.push_back({i, j, static_cast<std::uint32_t>(declared[j].torque),
-                            declared[j].max_torque_n_m, kNone, false});
+      const scene::Actuator& each = declared[j];
+      actuators_.push_back({i, j, static_cast<std::uint32_t>(each.wheel.value_or(each.torque)),
+                            each.max_torque_n_m, each.wheel.has_value(), each.max_speed_rad_s,
+                            kNone, false});
     }
   }
   first_actuator_.push_back(static_cast<std::uint32_t>(actuators_.size()));
@@ -54,6 +56,7 @@ VerdictRecord CommandGate::answer_to(const CommandRecord& command,
   verdict.spacecraft = command.spacecraft;
   verdict.actuator = command.actuator;
   verdict.priority = command.priority;
+  verdict.of_speed = command.of_speed;
   verdict.step = beat.step;
   verdict.time_ns = beat.t_ns;
   return verdict;
@@ -146,7 +149,10 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
   }
   stream->last_sequence = command.sequence;
 
-  const Judgement judgement = judge(command, actuator.max_torque_n_m, beat.t_ns);
+  // A speed for what is no wheel's: no authority.
+  const Vec3<double> limits = command.of_speed != 0 ? Vec3<double>{actuator.max_speed_rad_s, 0, 0}
+                                                    : actuator.max_torque_n_m;
+  const Judgement judgement = judge(command, limits, beat.t_ns);
   verdict.verdict = judgement.verdict;
   verdict.reason = judgement.reason;
   verdict.start_ns = judgement.start_ns;
@@ -252,10 +258,28 @@ void CommandGate::release(std::uint32_t entry) noexcept {
   free_ = entry;
 }
 
+namespace {
+
+void set(TorqueInterval<double>& interval, const VerdictRecord& v) noexcept {
+  interval = {v.start_ns, v.end_ns, {v.torque_n_m[0], v.torque_n_m[1], v.torque_n_m[2]}};
+}
+void set(MotorInterval<double>& interval, const VerdictRecord& v) noexcept {
+  interval = {v.start_ns, v.end_ns, {v.of_speed != 0, v.torque_n_m[0]}};
+}
+
+}  // namespace
+
 void CommandGate::begin(const Beat& beat, Fleet* fleet) noexcept {
   for (std::size_t i = 0; i < busy_.size();) {
     Actuator& actuator = actuators_[busy_[i]];
-    advance(actuator, beat, fleet);
+    if (fleet == nullptr) {
+      Commanded<double> nobodys;
+      advance(actuator, beat, nobodys);
+    } else if (Vehicle& vehicle = fleet->vehicles()[actuator.spacecraft]; actuator.is_wheel) {
+      advance(actuator, beat, vehicle.wheels->spinning[actuator.torque].motor);
+    } else {
+      advance(actuator, beat, std::get<Commanded<double>>(vehicle.torques[actuator.torque]));
+    }
     if (actuator.head == kNone) {
       actuator.busy = false;
       busy_[i] = busy_.back();
@@ -287,19 +311,16 @@ void CommandGate::reset(const Beat& beat) noexcept {
   busy_.clear();
 }
 
-void CommandGate::advance(Actuator& actuator, const Beat& beat, Fleet* fleet) noexcept {
-  Commanded<double> nobodys;
-  Commanded<double>& commanded =
-      fleet == nullptr ? nobodys
-                       : std::get<Commanded<double>>(
-                             fleet->vehicles()[actuator.spacecraft].torques[actuator.torque]);
-  commanded.intervals = 0;
+/// `window`: a Commanded, or the Motor of a wheel.
+template <class Window>
+void CommandGate::advance(Actuator& actuator, const Beat& beat, Window& window) noexcept {
+  window.intervals = 0;
   std::uint32_t* link = &actuator.head;
   while (*link != kNone) {
     const std::uint32_t entry = *link;
     Live& live = pool_[entry];
     VerdictRecord& v = live.verdict;
-    if (v.start_ns >= beat.t_ns + beat.h_ns || commanded.intervals == Commanded<double>::kWindow) {
+    if (v.start_ns >= beat.t_ns + beat.h_ns || window.intervals == Window::kWindow) {
       break;  // the list ascends; what the window cannot hold begins, late, at the next beat
     }
     if (!live.begun) {
@@ -320,8 +341,7 @@ void CommandGate::advance(Actuator& actuator, const Beat& beat, Fleet* fleet) no
       release(entry);
       continue;
     }
-    commanded.window[commanded.intervals++] = {
-        v.start_ns, v.end_ns, {v.torque_n_m[0], v.torque_n_m[1], v.torque_n_m[2]}};
+    set(window.window[window.intervals++], v);
     link = &live.next;
   }
 }

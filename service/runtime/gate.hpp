@@ -88,8 +88,10 @@ class CommandGate {
   struct Actuator {
     std::uint32_t spacecraft = 0;
     std::uint32_t index = 0;   ///< within its spacecraft
-    std::uint32_t torque = 0;  ///< within Vehicle::torques
+    std::uint32_t torque = 0;  ///< within Vehicle::torques, or its wheels
     Vec3<double> max_torque_n_m;
+    bool is_wheel = false;
+    double max_speed_rad_s = 0;
     std::uint32_t head = kNone;
     bool busy = false;  ///< listed in busy_
   };
@@ -107,7 +109,8 @@ class CommandGate {
   void insert(Actuator& actuator, std::uint32_t entry) noexcept;
   void release(std::uint32_t entry) noexcept;
   void begin(const Beat& beat, Fleet* fleet) noexcept;
-  void advance(Actuator& actuator, const Beat& beat, Fleet* fleet) noexcept;
+  template <class Window>
+  void advance(Actuator& actuator, const Beat& beat, Window& window) noexcept;
 
   VerdictRing& verdicts_;
   JournalWriter* journal_ = nullptr;

@@ -38,13 +38,21 @@ void Tick::publish(std::uint64_t step, bool everything) noexcept {
       report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
     }
   }
+  const bool wheels = due_at(step, telemetry_.wheel_every, everything);
+  if (wheels) {
+    for (const std::uint32_t spacecraft : telemetry_.watched) {
+      if (!push_wheels(spacecraft, 0, step)) {
+        add(report_.telemetry_lost, 1);
+      }
+    }
+  }
   if (fleet) {
     write_fleet(step, 0);
   }
   const std::size_t verdicts = segment_->verdicts.size();
   raise(report_.most_verdicts, verdicts);
   raise(report_.most_telemetry, segment_->telemetry.size());
-  if (topics != 0 || fleet || verdicts > 0 || answers_wait()) {
+  if (topics != 0 || fleet || wheels || verdicts > 0 || answers_wait()) {
     wake_bridge(*segment_);
   }
 }
@@ -59,6 +67,29 @@ bool Tick::push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint
   record.step = step;
   record.time_ns = static_cast<std::int64_t>(step) * step_ns_;
   return segment_->telemetry.push(record);
+}
+
+/// All of that spacecraft, or none.
+bool Tick::push_wheels(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept {
+  const Vehicle& vehicle = fleet_.vehicles()[spacecraft];
+  if (vehicle.wheels == nullptr) {
+    return true;
+  }
+  const std::vector<SpinningWheel<double>>& spinning = vehicle.wheels->spinning;
+  if (segment_->wheels.room() < spinning.size()) {
+    return false;
+  }
+  const Vec3<double> omega_B = angular_velocity_of(vehicle);
+  for (std::uint32_t i = 0; i < spinning.size(); ++i) {
+    WheelRecord record = sample(spinning[i], omega_B);
+    record.spacecraft = spacecraft;
+    record.wheel = i;
+    record.flags |= flags;
+    record.step = step;
+    record.time_ns = static_cast<std::int64_t>(step) * step_ns_;
+    segment_->wheels.push(record);
+  }
+  return true;
 }
 
 void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
@@ -91,14 +122,22 @@ void Tick::publish_final(int patience_ms) {
   const std::uint64_t step = report_.step.load(std::memory_order_relaxed);
   const std::int64_t patience_ends = monotonic_ns() + patience_ms * (kSecond / 1000);
   const std::uint32_t topics = topics_at(step, true);
-  for (const std::uint32_t spacecraft : telemetry_.watched) {
-    while (topics != 0 && !push_sample(spacecraft, topics, kFlagFinal, step)) {
+  const auto patiently = [&](const auto& push) {
+    while (!push()) {
       if (monotonic_ns() > patience_ends) {
         add(report_.telemetry_lost, 1);
-        break;
+        return;
       }
       wake_bridge(*segment_);
       sleep_until(monotonic_ns() + kSecond / 1000);
+    }
+  };
+  for (const std::uint32_t spacecraft : telemetry_.watched) {
+    if (topics != 0) {
+      patiently([&] { return push_sample(spacecraft, topics, kFlagFinal, step); });
+    }
+    if (telemetry_.wheel_every != 0) {
+      patiently([&] { return push_wheels(spacecraft, kFlagFinal, step); });
     }
   }
   if (telemetry_.fleet_every != 0) {

@@ -25,12 +25,12 @@ struct CommandRecord {
   std::uint32_t spacecraft = 0;
   std::uint32_t actuator = 0;
   std::int32_t priority = 0;
-  std::uint32_t reserved = 0;
+  std::uint32_t of_speed = 0;                ///< 1: torque_n_m[0] is a wheel's speed [rad/s]
   std::int64_t start_ns = kStartAtNextBeat;  ///< simulation time
   std::int64_t end_ns = 0;                   ///< simulation time, exclusive; 0 with a duration
   std::int64_t duration_ns = 0;              ///< from the effective start; 0 with an end
-  std::array<double, 3> torque_n_m{};        ///< in the actuator's frame
-  std::int64_t received_ns = 0;              ///< monotonic clock, by the bridge; 0: not stamped
+  std::array<double, 3> torque_n_m{};  ///< in the actuator's frame; of a wheel about its axis: x
+  std::int64_t received_ns = 0;        ///< monotonic clock, by the bridge; 0: not stamped
 };
 
 /// Same values and order as Verdict in idl/command.idl.
@@ -69,7 +69,7 @@ struct VerdictRecord {
   std::int32_t priority = 0;
   Verdict verdict = Verdict::refused;
   Reason reason = Reason::none;
-  std::uint32_t reserved = 0;
+  std::uint32_t of_speed = 0;          ///< as in the command
   std::uint64_t step = 0;              ///< decided at; when applied: the first step it acts in
   std::int64_t time_ns = 0;            ///< simulation time of that step's beginning
   std::int64_t start_ns = 0;           ///< in force from
@@ -107,6 +107,24 @@ struct TelemetryRecord {
   double work_j = 0;
   double energy_residual_j = 0;
   std::array<double, 3> momentum_residual_I_n_m_s{};
+};
+
+/// Flags of a WheelRecord, beside kFlagFinal; same values as in idl/telemetry.idl.
+inline constexpr std::uint32_t kWheelTorqueLimited = 1;
+inline constexpr std::uint32_t kWheelSpeedLimited = 2;
+
+/// One wheel at one step.
+struct WheelRecord {
+  std::uint32_t spacecraft = 0;
+  std::uint32_t wheel = 0;
+  std::uint32_t flags = 0;
+  std::uint32_t reserved = 0;
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  double speed_rad_s = 0;
+  double momentum_n_m_s = 0;
+  double motor_torque_n_m = 0;
+  double friction_torque_n_m = 0;
 };
 
 /// One spacecraft in the fleet snapshot.

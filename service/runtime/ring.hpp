@@ -58,6 +58,9 @@ class SpscRing {
     return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) < Capacity;
   }
 
+  /// Producer: how many pushes find a place.
+  std::size_t room() const noexcept { return Capacity - size(); }
+
   /// Consumer. The entry `offset` behind the oldest, which stays; below size() only.
   const Entry& peek(std::size_t offset) const noexcept {
     return entries_[(tail_.load(std::memory_order_relaxed) + offset) & (Capacity - 1)];

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adstar/integrators/guard.hpp"
 #include "service/scene/inertia.hpp"
 
 namespace adstar::runtime {
@@ -14,28 +13,16 @@ bool all_finite(const std::array<double, N>& numbers) noexcept {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// The scene's own condition for a motion: its energy and momentum are finite.
-bool can_turn(const RigidBody<double>& body, const Quat<double>& q_IB,
-              const Vec3<double>& H_I) noexcept {
-  return std::isfinite(
-      angular_speed_bound_squared(body, body_momentum(make_state(q_IB, H_I)), 0.0));
-}
-
 ControlRefusal set_state(const ControlRecord& record, Fleet& fleet) noexcept {
   const Quat<double> q_IB{record.q_IB[0], record.q_IB[1], record.q_IB[2], record.q_IB[3]};
   if (!all_finite(record.q_IB) || !all_finite(record.omega_B_rad_s) ||
       q_IB == Quat<double>{0.0, 0.0, 0.0, 0.0}) {
     return ControlRefusal::bad_state;
   }
-  const RigidBody<double>& body = fleet.vehicles()[record.spacecraft].body;
   const auto& omega = record.omega_B_rad_s;
-  const Vec3<double> H_I =
-      rotate(normalised(q_IB), body.momentum(Vec3<double>{omega[0], omega[1], omega[2]}));
-  if (!can_turn(body, q_IB, H_I)) {
-    return ControlRefusal::bad_state;
-  }
-  fleet.set_state(record.spacecraft, q_IB, H_I);
-  return ControlRefusal::none;
+  return fleet.set_motion(record.spacecraft, q_IB, {omega[0], omega[1], omega[2]})
+             ? ControlRefusal::none
+             : ControlRefusal::bad_state;
 }
 
 ControlRefusal set_inertia(const ControlRecord& record, Fleet& fleet) noexcept {
@@ -46,13 +33,8 @@ ControlRefusal set_inertia(const ControlRecord& record, Fleet& fleet) noexcept {
   }
   Eigen::Matrix3d J;
   J << j[0], j[3], j[4], j[3], j[1], j[5], j[4], j[5], j[2];
-  const RigidBody<double> body(J);
-  const State<double>& state = fleet.vehicles()[record.spacecraft].state;
-  if (!can_turn(body, state.q_IB, state.H_I.value())) {
-    return ControlRefusal::bad_inertia;
-  }
-  fleet.set_body(record.spacecraft, body);
-  return ControlRefusal::none;
+  return fleet.set_body(record.spacecraft, RigidBody<double>(J)) ? ControlRefusal::none
+                                                                 : ControlRefusal::bad_inertia;
 }
 
 ControlRefusal act(const ControlRecord& record, Fleet& fleet) noexcept {

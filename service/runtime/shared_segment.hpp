@@ -59,6 +59,7 @@ struct SharedSegment {
   SpscRing<CommandRecord, 4096> commands;              ///< bridge → tick
   SpscRing<VerdictRecord, 8192> verdicts;              ///< tick → bridge
   SpscRing<TelemetryRecord, 16384> telemetry;          ///< tick → bridge
+  SpscRing<WheelRecord, 8192> wheels;                  ///< tick → bridge
   SpscRing<StepRequestRecord, 64> step_requests;       ///< bridge → tick
   SpscRing<StepReplyRecord, 256> step_replies;         ///< tick → bridge
   SpscRing<ControlRecord, 64> controls;                ///< bridge → tick

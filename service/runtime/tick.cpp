@@ -41,7 +41,7 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
       lead_(scene.standby ? scene.standby->lead_steps : 0),
       held_(scene.standby ? 2 * kMostHeld : 0),
       snapshot_every_(snapshot_every(step_ns_)),
-      snapshot_(scene.spacecraft.size()),
+      snapshot_(fleet_),
       fleet_words_(fleet_words(segment.fleet_size())) {
   if (obeys_run_control_) {
     fleet_.keep_start();

@@ -161,6 +161,7 @@ class Tick {
   std::uint32_t topics_at(std::uint64_t step, bool everything) const noexcept;
   bool push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
                    std::uint64_t step) noexcept;
+  bool push_wheels(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
   void write_fleet(std::uint64_t step, std::uint32_t flags) noexcept;
 
   MappedSegment& segment_;

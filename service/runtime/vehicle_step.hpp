@@ -6,12 +6,8 @@
 
 namespace adstar::runtime {
 
-/// Returns whether the step was resolved.
-template <class Scheme>
-bool step_vehicle(const BodyOf<Scheme, double>& body, Vehicle& vehicle, std::int64_t t_ns,
-                  std::int64_t h_ns, const StepLimits& limits) noexcept {
-  const StepReport report =
-      advance<Scheme, double>(body, vehicle.state, vehicle.torques, t_ns, h_ns, limits);
+/// Sets the flags; returns whether the step was resolved.
+inline bool note(Vehicle& vehicle, const StepReport& report) noexcept {
   vehicle.flags = 0;
   if (report.resolved()) {
     return true;
@@ -23,6 +19,14 @@ bool step_vehicle(const BodyOf<Scheme, double>& body, Vehicle& vehicle, std::int
                   (report.at_separatrix ? kFlagSeparatrix : 0U) |
                   (report.attitude_lost ? kFlagAttitudeLost : 0U);
   return false;
+}
+
+/// The same after one step.
+template <class Scheme>
+bool step_vehicle(const BodyOf<Scheme, double>& body, Vehicle& vehicle, std::int64_t t_ns,
+                  std::int64_t h_ns, const StepLimits& limits) noexcept {
+  return note(vehicle,
+              advance<Scheme, double>(body, vehicle.state, vehicle.torques, t_ns, h_ns, limits));
 }
 
 }  // namespace adstar::runtime

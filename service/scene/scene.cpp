@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "adstar/gyrostat.hpp"
 #include "adstar/integrators/all.hpp"
 #include "service/scene/files.hpp"
 #include "service/scene/sections.hpp"
@@ -43,6 +44,20 @@ const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft) {
   return found == spacecraft.end() ? nullptr : &*found;
 }
 
+std::vector<SpinningWheel<double>> spinning_wheels(const Spacecraft& spacecraft) {
+  std::vector<SpinningWheel<double>> spinning;
+  for (const NamedWheel& wheel : spacecraft.wheels) {
+    spinning.push_back(wheel.at_start);
+  }
+  return spinning;
+}
+
+const Spacecraft* first_with_wheels(const std::vector<Spacecraft>& spacecraft) {
+  const auto found = std::find_if(spacecraft.begin(), spacecraft.end(),
+                                  [](const Spacecraft& craft) { return !craft.wheels.empty(); });
+  return found == spacecraft.end() ? nullptr : &*found;
+}
+
 SceneError::SceneError(const std::vector<std::string>& complaints)
     : std::runtime_error(lines_of(complaints)) {}
 
@@ -59,6 +74,15 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
     section.scheme.refuse_as(
         fmt::format("{}, which knows no torque", in_quotes(scene.simulation.scheme)),
         fmt::format("a scheme that does, since {} names one", in_quotes(forced->name)),
+        in_quotes(scheme_names().front()));
+  }
+  if (const Spacecraft* with_wheels = first_with_wheels(fleet.spacecraft);
+      with_wheels != nullptr && !carries_wheels(scene.simulation.scheme)) {
+    section.scheme.refuse_as(
+        fmt::format("{}, which carries no wheels", in_quotes(scene.simulation.scheme)),
+        fmt::format("a scheme that does, since {} has some: coadjoint_* in double, projected_*, "
+                    "quaternion_rk4",
+                    in_quotes(with_wheels->name)),
         in_quotes(scheme_names().front()));
   }
   scene.telemetry = read_telemetry(root, scene.simulation.step_ns, fleet);

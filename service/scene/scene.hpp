@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "adstar/bodies/wheel.hpp"
 #include "adstar/integrators/guard.hpp"
 #include "adstar/state.hpp"
 #include "adstar/torques/all.hpp"
@@ -67,19 +68,28 @@ struct Budget {
   bool refuse_at_start = true;  ///< a scene whose step was measured not to fit
 };
 
-/// A commanded torque of the scene: Spacecraft::torques[torque] is its adstar::Commanded.
+/// A commanded torque of the scene, or the motor of a wheel that is commanded.
 struct Actuator {
   std::string name;
-  std::size_t torque = 0;
-  Vec3<double> max_torque_n_m;
+  std::size_t torque = 0;       ///< Spacecraft::torques[torque] is its adstar::Commanded
+  Vec3<double> max_torque_n_m;  ///< of a wheel: the motor's, about its axis, in x
+  std::optional<std::size_t> wheel =
+      std::nullopt;            ///< none: a torque; else Spacecraft::wheels[*wheel]
+  double max_speed_rad_s = 0;  ///< of a wheel
+};
+
+struct NamedWheel {
+  std::string name;
+  SpinningWheel<double> at_start;
 };
 
 struct Spacecraft {
   std::string name;
-  Eigen::Matrix3d inertia_body_kg_m2;
-  State<double> initial;  ///< q_IB and H_I at t = 0
+  Eigen::Matrix3d inertia_body_kg_m2;  ///< wheels locked
+  State<double> initial;               ///< q_IB and H_I at t = 0, wheels included
   std::vector<Torque<double>> torques;
   std::vector<Actuator> actuators;
+  std::vector<NamedWheel> wheels;
 };
 
 /// Publication periods in whole steps; 0: not published.
@@ -88,7 +98,8 @@ struct Telemetry {
   std::uint64_t momentum_every = 0;
   std::uint64_t fleet_every = 0;
   std::vector<std::uint32_t>
-      watched;  ///< spacecraft with AttitudeState and MomentumState of their own
+      watched;                    ///< spacecraft with AttitudeState and MomentumState of their own
+  std::uint64_t wheel_every = 0;  ///< WheelState of theirs
 };
 
 /// What a run leaves on disk.
@@ -139,6 +150,12 @@ struct Scene {
 
 /// Wall time from one beat to the next under Pace::clock [ns].
 std::int64_t beat_ns(const Simulation& simulation);
+
+/// Its wheels as they are at t = 0.
+std::vector<SpinningWheel<double>> spinning_wheels(const Spacecraft& spacecraft);
+
+/// The first spacecraft that has wheels; null when none has.
+const Spacecraft* first_with_wheels(const std::vector<Spacecraft>& spacecraft);
 
 /// The first spacecraft that names a torque; null when all are free.
 const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft);

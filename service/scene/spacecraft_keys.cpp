@@ -10,6 +10,7 @@
 #include "service/scene/inertia.hpp"
 #include "service/scene/sections.hpp"
 #include "service/scene/torque_keys.hpp"
+#include "service/scene/wheel_keys.hpp"
 
 namespace adstar::scene {
 namespace {
@@ -30,6 +31,8 @@ struct Plan {
   Value motion_value;
   RangedVector motion_vector;
   std::vector<TorquePlan> torques;
+  Value wheels_value;
+  std::vector<WheelPlan> wheels;
 };
 
 void read_names(Keys& keys, bool fleet, Plan& plan) {
@@ -137,6 +140,14 @@ Plan read_plan(Keys& keys, const TorqueContext& context) {
   for (const TorquePlan& torque : plan.torques) {
     drawn = drawn || torque.drawn;
   }
+  std::vector<std::string> actuators;
+  for (const TorquePlan& torque : plan.torques) {
+    if (torque.actuator) {
+      actuators.push_back(torque.actuator->name);
+    }
+  }
+  plan.wheels_value = keys.optional("wheel");
+  plan.wheels = read_wheels(plan.wheels_value, std::move(actuators));
   read_seed(keys, drawn, plan);
   keys.refuse_unknown();
   return plan;
@@ -146,9 +157,12 @@ State<double> initial_state(const Plan& plan, const RigidBody<double>& body, Dra
   const Quat<double> q_IB = plan.q_IB ? *plan.q_IB : draw_rotation(draws);
   const Quat<double> unit = normalised(q_IB);
   const Vec3<double> v = plan.motion_vector.value(draws);
+  const auto with_wheels = [&](const Vec3<double>& Pi_B) {
+    return plan.wheels.empty() ? Pi_B : Pi_B + momentum_relative_to_body(plan.wheels);
+  };
   switch (plan.motion) {
     case Motion::omega_B:
-      return make_state(q_IB, rotate(unit, body.momentum(v)));
+      return make_state(q_IB, rotate(unit, with_wheels(body.momentum(v))));
     case Motion::Pi_B:
       return make_state(q_IB, rotate(unit, v));
     case Motion::H_I:
@@ -156,7 +170,7 @@ State<double> initial_state(const Plan& plan, const RigidBody<double>& body, Dra
     case Motion::at_rest:
       break;
   }
-  return make_state(q_IB, Vec3<double>{});
+  return make_state(q_IB, rotate(unit, with_wheels({})));
 }
 
 /// A spacecraft of the plan that cannot be, and how many more of them there are.
@@ -184,8 +198,8 @@ struct Refused {
   }
 };
 
-Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertias,
-                           Refused& motions) {
+Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertias, Refused& motions,
+                           Refused& wheels) {
   Draws draws(plan.seed, index);
   Spacecraft spacecraft;
   spacecraft.name = plan.names[index];
@@ -212,17 +226,30 @@ Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertia
     }
     spacecraft.torques.push_back(torque.make(draws));
   }
+  if (!plan.wheels.empty()) {
+    if (!leaves_a_body(plan.wheels, spacecraft.inertia_body_kg_m2)) {
+      wheels.note(spacecraft.name,
+                  {"wheels as heavy as the body about an axis",
+                   "inertia_body_kg_m2 with the wheels in it, and something left beside them",
+                   "a smaller spin_inertia_kg_m2"});
+      return spacecraft;
+    }
+    const Vec3<double> omega_B = body.angular_velocity(body_momentum(spacecraft.initial) -
+                                                       momentum_relative_to_body(plan.wheels));
+    add_wheels(plan.wheels, omega_B, spacecraft);
+  }
   return spacecraft;
 }
 
 void make_fleet(const Plan& plan, std::vector<Spacecraft>& all) {
-  Refused inertias, motions;
+  Refused inertias, motions, wheels;
   for (std::size_t i = 0; i < plan.names.size(); ++i) {
-    all.push_back(make_spacecraft(plan, i, inertias, motions));
+    all.push_back(make_spacecraft(plan, i, inertias, motions, wheels));
   }
   const bool fleet = plan.count > 1;
   inertias.report(plan.inertia_value, fleet);
   motions.report(plan.motion_value ? plan.motion_value : plan.inertia_value, fleet);
+  wheels.report(plan.wheels_value, fleet);
 }
 
 /// One complaint a block: two fleets of one pattern collide in every name.

@@ -109,6 +109,9 @@ Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fl
   telemetry.momentum_every = read_every(keys.optional("momentum_hz"), kMomentumHz, step_ns);
   telemetry.fleet_every =
       read_every(keys.optional("fleet_hz"), fleet.names.size() > 1 ? kFleetHz : 0.0, step_ns);
+  constexpr double kWheelHz = 10.0;
+  const bool wheels = first_with_wheels(fleet.spacecraft) != nullptr;
+  telemetry.wheel_every = read_every(keys.optional("wheel_hz"), wheels ? kWheelHz : 0.0, step_ns);
   telemetry.watched = read_watched(keys.optional("spacecraft"), fleet);
   keys.refuse_unknown();
   return telemetry;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "adstar/gyrostat.hpp"
 #include "adstar/integrators/all.hpp"
 #include "service/trade/front.hpp"
 #include "service/trade/grid.hpp"
@@ -34,9 +35,10 @@ class Floor {
 
 std::vector<std::string> usable_schemes(const scene::Scene& scene) {
   const bool forced = scene::first_forced(scene.spacecraft) != nullptr;
+  const bool wheels = scene::first_with_wheels(scene.spacecraft) != nullptr;
   std::vector<std::string> names;
   for (const std::string_view name : scheme_names()) {
-    if (!forced || !claims_of(name).free_only) {
+    if ((!forced || !claims_of(name).free_only) && (!wheels || carries_wheels(name))) {
       names.emplace_back(name);
     }
   }

@@ -30,7 +30,7 @@ void compare(Errors& errors, const runtime::Vehicle& vehicle, const TrueState& t
   take_larger(errors.attitude_rad, angle_between(truth.q_IB, q));
   take_larger(errors.momentum_relative,
               relative(norm(widened(state.H_I.value()) - truth.H_I), norm(truth.H_I)));
-  const Wide energy = vehicle.body.energy(body_momentum(state));
+  const Wide energy = runtime::energy_of(vehicle);
   take_larger(errors.energy_relative, relative(std::fabs(energy - truth.energy_j), truth.energy_j));
 }
 
@@ -65,17 +65,12 @@ Cost find_cost(const std::vector<scene::Spacecraft>& spacecraft, const std::stri
                const Effort& effort) {
   using Clock = std::chrono::steady_clock;
   runtime::Fleet fleet(spacecraft, scheme, limits);
-  std::vector<State<double>> start;
-  for (const runtime::Vehicle& vehicle : fleet.vehicles()) {
-    start.push_back(vehicle.state);
-  }
+  fleet.keep_start();
   const auto steps = std::clamp<std::uint64_t>(
       static_cast<std::uint64_t>(horizon_ns / step_ns), 1,
       std::max<std::uint64_t>(1, effort.at_most_steps / spacecraft.size()));
   const auto run = [&] {
-    for (std::size_t i = 0; i < start.size(); ++i) {
-      fleet.vehicles()[i].state = start[i];
-    }
+    fleet.reset();
     for (std::uint64_t n = 0; n < steps; ++n) {
       fleet.step(static_cast<std::int64_t>(n) * step_ns, step_ns);
     }

@@ -6,14 +6,17 @@
 
 #include <fmt/format.h>
 
-#include "adstar/propagator.hpp"
+#include "adstar/gyrostat.hpp"
 #include "service/trade/widened.hpp"
 
 namespace adstar::trade {
 namespace {
 
-TrueState true_state(const RigidBody<Wide>& body, const State<Wide>& state) {
-  return {state.q_IB, state.H_I.value(), body.energy(body_momentum(state))};
+using WideWheels = std::vector<SpinningWheel<Wide>>;
+
+TrueState true_state(const RigidBody<Wide>& hub, const WideWheels& wheels,
+                     const State<Wide>& state) {
+  return {state.q_IB, state.H_I.value(), energy(hub, std::span(wheels), body_momentum(state))};
 }
 
 std::vector<TrueState> in_closed_form(const scene::Spacecraft& craft,
@@ -21,7 +24,7 @@ std::vector<TrueState> in_closed_form(const scene::Spacecraft& craft,
   const RigidBody<Wide> body = widened_body(craft);
   std::vector<TrueState> states;
   for (const std::int64_t t_ns : times_ns) {
-    states.push_back(true_state(body, trade::in_closed_form(craft, t_ns)));
+    states.push_back(true_state(body, {}, trade::in_closed_form(craft, t_ns)));
   }
   return states;
 }
@@ -31,7 +34,8 @@ std::vector<TrueState> by_small_steps(const scene::Spacecraft& craft,
                                       const std::vector<std::int64_t>& times_ns, std::int64_t h_ns,
                                       const std::function<void(std::int64_t)>& look) {
   constexpr std::int64_t kLookEvery = 256;
-  const RigidBody<Wide> body = widened_body(craft);
+  WideWheels wheels = widened_wheels(craft);
+  const RigidBody<Wide> hub(hub_inertia<Wide>(matrix_of(widened_body(craft).inertia()), wheels));
   const std::vector<Torque<Wide>> torques = widened(craft.torques);
   State<Wide> state = widened_start(craft);
   std::vector<TrueState> states;
@@ -42,14 +46,18 @@ std::vector<TrueState> by_small_steps(const scene::Spacecraft& craft,
   for (const std::int64_t end_ns : times_ns) {
     while (t_ns < end_ns) {
       const std::int64_t part_ns = std::min(h_ns, end_ns - t_ns);
-      advance<CoadjointFehlberg8>(body, state, std::span<const Torque<Wide>>(torques), t_ns,
-                                  part_ns, limits);
+      const std::span<const Torque<Wide>> all(torques);
+      if (wheels.empty()) {
+        advance<CoadjointFehlberg8>(hub, state, all, t_ns, part_ns, limits);
+      } else {
+        advance<CoadjointFehlberg8, Wide>(hub, state, wheels, all, t_ns, part_ns, limits);
+      }
       t_ns += part_ns;
       if (++n % kLookEvery == 0) {
         look(t_ns);
       }
     }
-    states.push_back(true_state(body, state));
+    states.push_back(true_state(hub, wheels, state));
   }
   return states;
 }
@@ -92,7 +100,7 @@ Truth find_truth(const std::vector<scene::Spacecraft>& spacecraft,
   for (const scene::Spacecraft& craft : spacecraft) {
     const double before = static_cast<double>(truth.spacecraft.size()) / fleet;
     say(before);
-    if (craft.torques.empty()) {
+    if (craft.torques.empty() && craft.wheels.empty()) {
       truth.spacecraft.push_back(in_closed_form(craft, times_ns));
       ++free;
       continue;

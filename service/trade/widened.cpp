@@ -39,6 +39,22 @@ std::vector<Torque<Wide>> widened(const std::vector<Torque<double>>& torques) {
   return wide;
 }
 
+std::vector<SpinningWheel<Wide>> widened_wheels(const scene::Spacecraft& craft) {
+  std::vector<SpinningWheel<Wide>> wheels;
+  for (const scene::NamedWheel& named : craft.wheels) {
+    const SpinningWheel<double>& from = named.at_start;
+    const Wheel<double>& w = from.wheel;
+    SpinningWheel<Wide> to;
+    to.wheel = {widened(w.axis_B),   w.spin_inertia_kg_m2, w.constant_speed,
+                w.max_torque_n_m,    w.max_speed_rad_s,    w.speed_gain_n_m_s_rad,
+                w.viscous_n_m_s_rad, w.coulomb_n_m,        w.coulomb_speed_rad_s};
+    to.motor.standing = {from.motor.standing.of_speed, from.motor.standing.value};
+    to.h = {from.h.value, from.h.carry};
+    wheels.push_back(to);
+  }
+  return wheels;
+}
+
 /// The start as the double-precision run has it, to the bit.
 State<Wide> widened_start(const scene::Spacecraft& craft) {
   const State<double>& s = craft.initial;

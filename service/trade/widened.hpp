@@ -3,11 +3,13 @@
 
 #include <vector>
 
+#include "adstar/bodies/wheel.hpp"
 #include "service/trade/truth.hpp"
 
 namespace adstar::trade {
 
 std::vector<Torque<Wide>> widened(const std::vector<Torque<double>>& torques);
+std::vector<SpinningWheel<Wide>> widened_wheels(const scene::Spacecraft& craft);
 State<Wide> widened_start(const scene::Spacecraft& craft);
 RigidBody<Wide> widened_body(const scene::Spacecraft& craft);
 

@@ -52,15 +52,15 @@ class FakeClock {
 
   void answer(const adstar_StepRequest& request, adstar_StepOutcome outcome,
               adstar_StepRefusal why = adstar_STEP_REFUSAL_NONE) {
-    adstar_StepReply reply{};
-    dds::set_text(reply.service, dds::text_of(request.service));
-    reply.requester = request.requester;
-    reply.sequence_number = request.sequence_number;
-    reply.outcome = outcome;
-    reply.refusal = why;
-    reply.step = 1200;
-    reply.time_ns = 12'000'000'000;
-    replies_.write(reply);
+    adstar_StepReply sample{};
+    dds::set_text(sample.service, dds::text_of(request.service));
+    sample.requester = request.requester;
+    sample.sequence_number = request.sequence_number;
+    sample.outcome = outcome;
+    sample.refusal = why;
+    sample.step = 1200;
+    sample.time_ns = 12'000'000'000;
+    replies_.write(sample);
   }
 
   const dds::Participant& participant() const { return participant_; }

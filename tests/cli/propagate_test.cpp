@@ -113,9 +113,10 @@ TEST(Propagate, says_once_that_commanded_actuators_rest) {
   const Outcome outcome =
       client({"propagate", "tests/cli/scenes/mixed.toml", "--duration", "20ms"});
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(outcome.err,
-            "adstar propagate: commanded actuator 'body' of 'sat0' and 5 more gives zero torque "
-            "here; to command it, run adstard and `adstar torque`\n");
+  EXPECT_EQ(
+      outcome.err,
+      "adstar propagate: nobody commands 'body' of 'sat0' and 5 more here; to command it, run "
+      "adstard, and `adstar torque` or `adstar wheel`\n");
 }
 
 TEST(Propagate, warns_of_spacecraft_that_no_sub_step_could_follow) {

@@ -25,7 +25,17 @@ void check_spacecraft(const scene::Spacecraft& craft) {
   const Quat<double>& q = craft.initial.q_IB;
   require(std::fabs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-9,
           "an attitude is not a rotation");
+  for (const scene::NamedWheel& named : craft.wheels) {
+    const Wheel<double>& wheel = named.at_start.wheel;
+    require(std::fabs(norm(wheel.axis_B) - 1) < 1e-9, "a wheel's axis is no unit vector");
+    require(wheel.spin_inertia_kg_m2 > 0, "a wheel has no inertia");
+    require(std::isfinite(named.at_start.h.value), "a wheel's momentum is not finite");
+  }
   for (const scene::Actuator& actuator : craft.actuators) {
+    if (actuator.wheel) {
+      require(*actuator.wheel < craft.wheels.size(), "an actuator is no wheel");
+      continue;
+    }
     require(actuator.torque < craft.torques.size() &&
                 std::holds_alternative<Commanded<double>>(craft.torques[actuator.torque]),
             "an actuator is no commanded torque");

@@ -118,7 +118,7 @@ TEST(Security, every_topic_there_is_has_a_place_in_the_permissions) {
   const std::string director = permissions_of("ours/flight_director");
   std::apply(
       [&](const auto&... topic) {
-        for (const std::string name : {std::string(topic.name)...}) {
+        for (const std::string& name : {std::string(topic.name)...}) {
           EXPECT_TRUE(contains(daemon, "<topic>" + name + "</topic>")) << name;
           const bool between_daemons = name.starts_with("adstar/standby_");
           EXPECT_EQ(contains(director, "<topic>" + name + "</topic>"), !between_daemons) << name;

@@ -21,8 +21,8 @@ namespace adstar::runtime {
 inline bool operator==(const VerdictRecord& a, const VerdictRecord& b) {
   const auto all = [](const VerdictRecord& v) {
     return std::tuple(v.commander.high, v.commander.low, v.sequence, v.spacecraft, v.actuator,
-                      v.priority, v.verdict, v.reason, v.step, v.time_ns, v.start_ns, v.end_ns,
-                      std::bit_cast<std::array<std::uint64_t, 3>>(v.torque_n_m));
+                      v.priority, v.verdict, v.reason, v.of_speed, v.step, v.time_ns, v.start_ns,
+                      v.end_ns, std::bit_cast<std::array<std::uint64_t, 3>>(v.torque_n_m));
   };
   return all(a) == all(b);
 }
@@ -64,6 +64,31 @@ inline scene::Spacecraft make_craft(int actuators, Frame frame = Frame::body,
         {std::string("a").append(std::to_string(i)), craft.torques.size(), limit});
     craft.torques.emplace_back(commanded);
   }
+  return craft;
+}
+
+/// Gives it two wheels: "w0", which its next actuator commands, and "w1", which holds its speed against friction.
+inline scene::Spacecraft with_wheels(scene::Spacecraft craft) {
+  const RigidBody<double> body(craft.inertia_body_kg_m2);
+  Vec3<double> Pi_B = body_momentum(craft.initial);
+  const Vec3<double> omega_B = body.angular_velocity(Pi_B);
+  for (int i = 0; i < 2; ++i) {
+    SpinningWheel<double> spinning;
+    Wheel<double>& wheel = spinning.wheel;
+    wheel.axis_B = i == 0 ? Vec3<double>{0, 0.6, 0.8} : Vec3<double>{1, 0, 0};
+    wheel.spin_inertia_kg_m2 = 0.02;
+    wheel.max_torque_n_m = 0.5;
+    wheel.max_speed_rad_s = 600;
+    wheel.speed_gain_n_m_s_rad = 0.01;
+    wheel.viscous_n_m_s_rad = i == 1 ? 1e-4 : 0;
+    wheel.coulomb_n_m = i == 1 ? 1e-3 : 0;
+    spinning.motor.standing = {i == 1, i == 1 ? 40.0 : 0.0};
+    spinning.start_at(i == 1 ? 30.0 : -10.0, omega_B);
+    Pi_B = Pi_B + (wheel.spin_inertia_kg_m2 * (i == 1 ? 30.0 : -10.0)) * wheel.axis_B;
+    craft.wheels.push_back({i == 0 ? "w0" : "w1", spinning});
+  }
+  craft.initial = make_state(craft.initial.q_IB, rotate(craft.initial.q_IB, Pi_B));
+  craft.actuators.push_back({"w0", 0, {0.5, 0, 0}, 0, 600});
   return craft;
 }
 

@@ -20,7 +20,7 @@ namespace adstar::test {
 inline scene::Scene recorded_scene() {
   scene::Scene scene;
   scene.simulation.step_ns = 10 * kMs;
-  scene.spacecraft = {make_craft(2, Frame::inertial), make_craft(1, Frame::body)};
+  scene.spacecraft = {make_craft(2, Frame::inertial), with_wheels(make_craft(1, Frame::body))};
   return scene;
 }
 
@@ -39,12 +39,17 @@ inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
     command.commander = {seed, static_cast<std::uint64_t>(between(1, 3))};
     command.sequence = beat + 1 - static_cast<std::uint64_t>(between(0, 1));
     command.spacecraft = static_cast<std::uint32_t>(between(0, 1));
-    command.actuator = command.spacecraft == 0 ? static_cast<std::uint32_t>(between(0, 1)) : 0;
+    command.actuator = static_cast<std::uint32_t>(between(0, 1));
+    const bool wheel = command.spacecraft == 1 && command.actuator == 1;
     command.priority = static_cast<std::int32_t>(between(0, 8) / 4);
     command.start_ns = now + between(-20, 300) * kMs / 2;
     command.end_ns = command.start_ns + between(1, 100) * kMs;
     command.torque_n_m = {1e-3 * static_cast<double>(between(-9, 9)), 2e-3,
                           between(0, 30) == 0 ? std::nan("") : 1e-3};
+    if (wheel) {
+      command.of_speed = static_cast<std::uint32_t>(between(0, 1));
+      command.torque_n_m = {command.of_speed != 0 ? 10.0 : 0.05, 0, 0};
+    }
     commands.push_back(command);
   }
   return commands;
@@ -82,7 +87,7 @@ class RecordedFlight {
     }
     start_log(resumed.records.next_number, resumed.records.last_in_files);
     if (!resumed.records.gap.empty()) {
-      log_->write_checkpoint(at_, states(), false);
+      log_->write_checkpoint(at_, state(), false);
     }
   }
 
@@ -140,11 +145,11 @@ class RecordedFlight {
   void checkpoint(bool keep_all_journals = false) {
     log_->move_records();
     log_->note_hash(at_, hash());
-    log_->write_checkpoint(at_, states(), keep_all_journals);
+    log_->write_checkpoint(at_, state(), keep_all_journals);
   }
 
-  std::vector<runtime::VehicleState> states() const { return runtime::states_of(fleet_); }
-  std::uint64_t hash() const { return run::state_hash(at_.step, states()); }
+  runtime::FleetState state() const { return runtime::state_of(fleet_); }
+  std::uint64_t hash() const { return run::state_hash(at_.step, state()); }
   std::vector<std::uint64_t> schedule() const { return gate_.save(); }
   std::uint64_t step() const { return at_.step; }
   const runtime::Instant& at() const { return at_; }

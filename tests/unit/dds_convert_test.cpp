@@ -92,6 +92,58 @@ TEST(DdsConvert, a_verdict_becomes_a_status) {
   EXPECT_EQ(reason_of(sample), Reason::no_authority);
 }
 
+TEST(DdsConvert, the_verdict_on_a_wheels_speed_says_a_speed_and_no_torque) {
+  runtime::VerdictRecord record;
+  record.of_speed = 1;
+  record.torque_n_m = {250, 0, 0};
+  const adstar_CommandStatus sample = to_sample(record, "sat1", "wheel1", "fly");
+  EXPECT_EQ(sample.speed_applied_rad_s, 250);
+  EXPECT_EQ(sample.torque_applied_n_m.x, 0);
+}
+
+TEST(DdsConvert, commands_of_a_wheel_become_records) {
+  adstar_WheelTorqueCommand torque{};
+  torque.commander = {1, 2};
+  torque.sequence_number = 3;
+  torque.priority = -4;
+  torque.start_time_ns = 5;
+  torque.end_time_ns = 6;
+  torque.duration_ns = 7;
+  torque.motor_torque_n_m = 0.25;
+  const runtime::CommandRecord record = to_record(torque, 8, 9);
+  EXPECT_EQ(record.commander, (runtime::CommanderId{1, 2}));
+  EXPECT_EQ(record.sequence, 3U);
+  EXPECT_EQ(record.priority, -4);
+  EXPECT_EQ(record.start_ns, 5);
+  EXPECT_EQ(record.end_ns, 6);
+  EXPECT_EQ(record.duration_ns, 7);
+  EXPECT_EQ(record.spacecraft, 8U);
+  EXPECT_EQ(record.actuator, 9U);
+  EXPECT_EQ(record.of_speed, 0U);
+  EXPECT_EQ(record.torque_n_m, (std::array<double, 3>{0.25, 0, 0}));
+  adstar_WheelSpeedCommand speed{};
+  speed.sequence_number = 10;
+  speed.speed_rad_s = -300;
+  EXPECT_EQ(to_record(speed, 0, 0).sequence, 10U);
+  EXPECT_EQ(to_record(speed, 0, 0).of_speed, 1U);
+  EXPECT_EQ(to_record(speed, 0, 0).torque_n_m, (std::array<double, 3>{-300, 0, 0}));
+}
+
+TEST(DdsConvert, a_wheel_keeps_every_number_on_the_wire) {
+  const runtime::WheelRecord record{1, 2, runtime::kWheelSpeedLimited, 0, 3, 4, 5.5, 6.5, 7.5, 8.5};
+  const adstar_WheelState sample = to_sample(record, "sat1", "wheel1", "fly");
+  EXPECT_EQ(text_of(sample.spacecraft), "sat1");
+  EXPECT_EQ(text_of(sample.wheel), "wheel1");
+  EXPECT_EQ(text_of(sample.service), "fly");
+  EXPECT_EQ(sample.step, 3U);
+  EXPECT_EQ(sample.time_ns, 4);
+  EXPECT_EQ(sample.speed_rad_s, 5.5);
+  EXPECT_EQ(sample.momentum_n_m_s, 6.5);
+  EXPECT_EQ(sample.motor_torque_n_m, 7.5);
+  EXPECT_EQ(sample.friction_torque_n_m, 8.5);
+  EXPECT_EQ(sample.flags, adstar_WHEEL_SPEED_LIMITED);
+}
+
 TEST(DdsConvert, an_enumerator_of_a_newer_program_is_not_taken_for_one_of_ours) {
   adstar_CommandStatus sample{};
   const std::uint32_t eight = 8;

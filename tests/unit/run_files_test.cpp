@@ -13,9 +13,10 @@ namespace {
 
 Checkpoint some_checkpoint() {
   Checkpoint checkpoint{1, 2, {0, 3}, 4, 5, {}, {10, 11, 12}, {13, 14}};
-  checkpoint.vehicles.resize(2);
-  checkpoint.vehicles[1].E_0 = 0.5;
-  checkpoint.vehicles[0].state.H_I.add({1, 2, 3});
+  checkpoint.fleet.vehicles.resize(2);
+  checkpoint.fleet.vehicles[1].E_0 = 0.5;
+  checkpoint.fleet.vehicles[0].state.H_I.add({1, 2, 3});
+  checkpoint.fleet.wheel_momenta = {{1, 2}, {3, 4}, {5, 6}};
   return checkpoint;
 }
 
@@ -27,7 +28,7 @@ TEST(Checkpoint, comes_back_from_its_bytes) {
   EXPECT_EQ(after.first_journal, 5U);
   EXPECT_EQ(after.gate, before.gate);
   EXPECT_EQ(after.controls, before.controls);
-  EXPECT_EQ(state_hash(3, after.vehicles), state_hash(3, before.vehicles));
+  EXPECT_EQ(state_hash(3, after.fleet), state_hash(3, before.fleet));
 }
 
 TEST(Checkpoint, with_any_bit_changed_is_refused) {
@@ -51,11 +52,16 @@ TEST(Checkpoint, cut_off_anywhere_or_longer_is_refused) {
 }
 
 TEST(StateHash, sees_every_bit_and_the_step) {
-  std::vector<runtime::VehicleState> states(2);
-  const std::uint64_t hash = state_hash(1, states);
-  EXPECT_NE(hash, state_hash(2, states));
-  states[1].state.q_IB.z = -0.0;
-  EXPECT_NE(hash, state_hash(1, states));
+  runtime::FleetState state;
+  state.vehicles.resize(2);
+  state.wheel_momenta.resize(3);
+  const std::uint64_t hash = state_hash(1, state);
+  EXPECT_NE(hash, state_hash(2, state));
+  state.vehicles[1].state.q_IB.z = -0.0;
+  const std::uint64_t other = state_hash(1, state);
+  EXPECT_NE(hash, other);
+  state.wheel_momenta[2].carry = -0.0;
+  EXPECT_NE(other, state_hash(1, state));
 }
 
 class JournalInBytes : public testing::Test {

@@ -55,6 +55,7 @@ struct Coadjoint {
   static constexpr Claims kClaims{.exact_momentum = true};
   /// step() also takes several bodies side by side.
   static constexpr bool kTakesLanes = !(stage_overshoot<Tableau>() > 1);
+  static constexpr bool kTakesAnyBody = true;  ///< that has angular_velocity()
   template <class T>
   using Body = RigidBody<T>;
 

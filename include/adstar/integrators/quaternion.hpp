@@ -87,6 +87,11 @@ template <class T>
   }
   return cross(Pi, omega_B);
 }
+template <class AnyBody, class T>
+[[gnu::always_inline]] inline Vec3<T> gyroscopic(const AnyBody&, const Vec3<T>& Pi,
+                                                 const Vec3<T>& omega_B) {
+  return cross(Pi, omega_B);
+}
 
 }  // namespace detail
 
@@ -98,12 +103,13 @@ struct QuaternionRk {
   static constexpr double kSubstepAngleRad = kOrder >= 8 ? 1.5 : kOrder >= 5 ? 0.75 : 0.5;
   static constexpr int kLeakPower = Projected ? kOrder : 0;  ///< Pi_B is read through q once a step
   static constexpr Claims kClaims{.exact_momentum = Projected};
+  static constexpr bool kTakesAnyBody = true;  ///< that has angular_velocity()
   template <class T>
   using Body = RigidBody<T>;
 
   /// Advances `state` by h [s]. Never throws, never allocates.
-  template <class T, class Torque>
-  static void step(const RigidBody<T>& body, State<T>& state, const T& h, const Torque& torque) {
+  template <class AnyBody, class T, class Torque>
+  static void step(const AnyBody& body, State<T>& state, const T& h, const Torque& torque) {
     step(body, state, h, torque, std::make_integer_sequence<int, Tableau::kStages>{});
   }
 
@@ -117,8 +123,8 @@ struct QuaternionRk {
     T work[Tableau::kStages];
   };
 
-  template <class T, class Torque, int... I>
-  [[gnu::always_inline]] static void step(const RigidBody<T>& body, State<T>& state, const T& h,
+  template <class AnyBody, class T, class Torque, int... I>
+  [[gnu::always_inline]] static void step(const AnyBody& body, State<T>& state, const T& h,
                                           const Torque& torque, std::integer_sequence<int, I...>) {
     const Quat<T> q_n{state.q_IB.w, state.q_IB.x, state.q_IB.y, state.q_IB.z};
     const Vec3<T> Pi_n = rotate_inverse(q_n, state.H_I.value());
@@ -154,8 +160,8 @@ struct QuaternionRk {
     state.q_IB = {n * q.w, n * q.x, n * q.y, n * q.z};
   }
 
-  template <int I, class T, class Torque>
-  [[gnu::always_inline]] static void stage(const RigidBody<T>& body, const Quat<T>& q_n,
+  template <int I, class AnyBody, class T, class Torque>
+  [[gnu::always_inline]] static void stage(const AnyBody& body, const Quat<T>& q_n,
                                            const Vec3<T>& Pi_n, const T& h, const Torque& torque,
                                            Slopes<T>& k) {
     Quat<T> q{q_n.w, q_n.x, q_n.y, q_n.z};
