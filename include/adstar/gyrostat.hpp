@@ -216,14 +216,13 @@ bool run_gyrostat(const RigidBody<T>& hub, State<T>& state, std::span<SpinningWh
   for (std::int64_t i = 0; i < parts; ++i) {
     const auto timed = timed_torque<Scheme>(segment, torques, t_s, T(i) * h, h);
     WheelStages<typename Scheme::Nodes, T> body(hub, wheels, h);
-    const bool followed =
-        follow<Scheme>(body, state, h, mixed_torque([&](const Stage<T>& stage) {
-                         TorqueSample<T> tau = timed(stage);
-                         const Vec3<T>&c = segment.damping, &omega = stage.omega_B;
-                         tau.body = tau.body - Vec3<T>{c.x * omega.x, c.y * omega.y, c.z * omega.z};
-                         body.take_slopes(stage.number, omega);
-                         return tau;
-                       }));
+    const bool followed = follow<Scheme>(body, state, h, mixed_torque([&](const Stage<T>& stage) {
+                                           TorqueSample<T> tau = timed(stage);
+                                           const T now_s = t_s + T(i) * h + stage.time_s;
+                                           add_stage_torques(tau, segment, torques, now_s, stage);
+                                           body.take_slopes(stage.number, stage.omega_B);
+                                           return tau;
+                                         }));
     if (followed) {
       body.finish(state);
     }

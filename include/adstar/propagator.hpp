@@ -1,7 +1,7 @@
 #pragma once
 // One step of one spacecraft: the step is split where a torque has an edge, each smooth segment is
 // split until the scheme can follow the motion (guard.hpp), and each part takes the cheapest form of
-// the scheme's step: free, constant in the body, of time and attitude, or of the rate too.
+// the scheme's step: free, constant in the body, of time, of the attitude too, or of the rate too.
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +59,8 @@ constexpr bool has_many_stages() {
   return Scheme::kOrder > 4 && !kSplitting;
 }
 
-/// run_segment() in the general form: any torque, one that looks at omega_B too. Out of line: a scene
-/// without damping does not pay for it.
+/// run_segment() in the general form: any torque, one that looks at the attitude or at omega_B too. Out of line:
+/// a scene without those does not pay for it.
 template <class Scheme, class T>
 [[gnu::noinline]] bool run_general(const BodyOf<Scheme, T>& body, State<T>& state,
                                    std::span<const Torque<T>> torques, const Segment<T>& segment,
@@ -70,14 +70,20 @@ template <class Scheme, class T>
   bool all = true;
   for (std::int64_t i = 0; i < parts; ++i) {
     const auto timed = timed_torque<Scheme>(segment, torques, t_s, T(i) * h, h);
-    all =
-        follow<Scheme>(body, state, h, mixed_torque([&](const Stage<T>& stage) {
-                         TorqueSample<T> tau = timed(stage);
-                         const Vec3<T>&c = segment.damping, &omega = stage.omega_B;
-                         tau.body = tau.body - Vec3<T>{c.x * omega.x, c.y * omega.y, c.z * omega.z};
-                         return tau;
-                       })) &&
-        all;
+    const T begun_s = t_s + T(i) * h;
+    const auto torque = [&](const Stage<T>& stage) {
+      TorqueSample<T> tau = timed(stage);
+      add_stage_torques(tau, segment, torques, begun_s + stage.time_s, stage);
+      return tau;
+    };
+    if constexpr (requires { Scheme::kFreeOrder; }) {
+      // A kick stands still: it need ask four times of the rate alone.
+      if (!segment.damped) {
+        all = follow<Scheme>(body, state, h, rateless_mixed_torque(torque)) && all;
+        continue;
+      }
+    }
+    all = follow<Scheme>(body, state, h, mixed_torque(torque)) && all;
   }
   return all;
 }
@@ -126,7 +132,7 @@ bool run_segment(const BodyOf<Scheme, T>& body, State<T>& state, std::span<const
   const bool constant = !segment.varying && !inertial && level;
   const bool body_only = !inertial && !segment.varying_inertial;
   bool all = true;
-  if (segment.damped || (has_many_stages<Scheme>() && !body_only)) {
+  if (segment.damped || segment.oriented || (has_many_stages<Scheme>() && !body_only)) {
     return run_general<Scheme>(body, state, torques, segment, t_ns, length_s, parts);
   }
   if (constant && is_zero(segment.body.start)) {

@@ -22,6 +22,7 @@ struct Segment {
   bool varying = false;           ///< some model is to be asked at every stage
   bool varying_inertial = false;  ///< and one of those in I
   T varying_bound{};              ///< of the norm of those [N m]
+  bool oriented = false;          ///< some model looks at the attitude
   bool damped = false;            ///< some model looks at omega_B
   Vec3<T> damping;                ///< -∂tau_B/∂omega_B per body axis, summed [N m s/rad]
 };
@@ -49,6 +50,9 @@ Segment<T> make_segment(std::span<const Torque<T>> torques, std::int64_t t_ns) {
           } else if constexpr (requires { model.damping(); }) {
             segment.damping = segment.damping + model.damping();
             segment.damped = segment.damped || !is_zero(model.damping());
+          } else if constexpr (requires(const Quat<T>& q) { model.at(T(), q); }) {
+            segment.oriented = true;
+            segment.varying_bound = segment.varying_bound + model.bound();
           } else {
             segment.varying = true;
             segment.varying_inertial = segment.varying_inertial || model.frame == Frame::inertial;
@@ -70,6 +74,28 @@ template <class T>
         next, std::visit([&](const auto& model) { return model.next_edge_after(t_ns); }, torque));
   }
   return next;
+}
+
+/// What looks at the attitude or at omega_B, added to what does not; t_s: of the stage.
+template <class T>
+void add_stage_torques(TorqueSample<T>& sum, const Segment<T>& segment,
+                       std::span<const Torque<T>> torques, const T& t_s, const Stage<T>& stage) {
+  if (segment.oriented) {
+    const Quat<T> q_IB = stage.q_IB();
+    for (const Torque<T>& torque : torques) {
+      std::visit(
+          [&](const auto& model) {
+            if constexpr (requires { model.at(t_s, q_IB); }) {
+              sum.body = sum.body + model.at(t_s, q_IB);
+            }
+          },
+          torque);
+    }
+  }
+  if (segment.damped) {
+    const Vec3<T>&c = segment.damping, &omega = stage.omega_B;
+    sum.body = sum.body - Vec3<T>{c.x * omega.x, c.y * omega.y, c.z * omega.z};
+  }
 }
 
 /// The stage-varying models, summed at one instant.

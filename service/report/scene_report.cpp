@@ -174,12 +174,22 @@ std::string dds_report(const scene::Scene& scene) {
 }
 
 std::string left_out(const scene::Scene& scene) {
+  const auto any = [&](const auto& has) {
+    return std::any_of(scene.spacecraft.begin(), scene.spacecraft.end(), has);
+  };
+  const bool orbit = any([](const scene::Spacecraft& craft) { return craft.orbit.has_value(); });
+  const bool gravity = any([](const scene::Spacecraft& craft) {
+    return std::any_of(craft.torques.begin(), craft.torques.end(), [](const auto& torque) {
+      return std::holds_alternative<GravityGradient<double>>(torque);
+    });
+  });
   const bool wheels = scene::first_with_wheels(scene.spacecraft) != nullptr;
-  return std::string(
-             "not modelled\n"
-             "  orbit and translation, gravity gradient, magnetic, aerodynamic and solar-radiation "
-             "torque,\n  ") +
-         (wheels ? "" : "reaction wheels, ") + "flexible bodies, fuel slosh\n";
+  return fmt::format(
+      "not modelled\n"
+      "  {}{}magnetic, aerodynamic and solar-radiation torque,\n"
+      "  {}flexible bodies, fuel slosh\n",
+      orbit ? "translation, " : "orbit and translation, ", gravity ? "" : "gravity gradient, ",
+      wheels ? "" : "reaction wheels, ");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <span>
 #include <utility>
 #include <variant>
@@ -53,6 +54,9 @@ std::string details(const Harmonic<double>& model) {
 std::string details(const Damping<double>& model) {
   return fmt::format("-c omega, c {} N m s/rad", vector_text(model.coefficient_n_m_s_rad));
 }
+std::string details(const GravityGradient<double>& model) {
+  return fmt::format("at most {} N m", short_number(model.bound()));
+}
 std::string details(const Table<double>& model) {
   const bool hold = model.interpolation == Interpolation::hold;
   return fmt::format("{} rows from {} s to {} s, {}, then {}", counted(model.time_ns.size()),
@@ -99,6 +103,17 @@ std::string motor_text(const SpinningWheel<double>& spinning, bool commanded) {
                      order.of_speed ? "holds " + short_number(order.value) + " rad/s"
                                     : "gives " + short_number(order.value) + " N m",
                      commanded ? " unless commanded" : "");
+}
+
+std::string orbit_line(const scene::Spacecraft& craft) {
+  if (!craft.orbit) {
+    return {};
+  }
+  constexpr double kTurn = 2 * std::numbers::pi;
+  return fmt::format("    orbit     Kepler, semi-major axis {} m, eccentricity {}, period {} s\n",
+                     short_number(craft.orbit->semi_major_axis_m),
+                     short_number(craft.orbit->eccentricity),
+                     short_number(kTurn / craft.orbit->mean_motion_rad_s));
 }
 
 std::string wheel_lines(const scene::Spacecraft& craft) {
@@ -157,7 +172,7 @@ std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft) 
   std::vector<Group> groups;
   std::map<std::string, std::size_t> by_torques;
   for (const scene::Spacecraft& craft : spacecraft) {
-    std::string torques = torque_lines(craft) + wheel_lines(craft);
+    std::string torques = orbit_line(craft) + torque_lines(craft) + wheel_lines(craft);
     const auto [place, fresh] = by_torques.emplace(torques, groups.size());
     if (fresh) {
       groups.emplace_back();

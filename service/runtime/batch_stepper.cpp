@@ -135,8 +135,10 @@ class BatchStepper final : public Stepper {
         unresolved += step_alone(step, member);
       } else {
         const Segment segment = adstar::detail::make_segment(torques, t_ns);
-        unresolved += segment.damped ? step_alone(step, member)  // of the rate: no kernel has it
-                                     : put(step, kind_of(segment), member, segment);
+        // Of the attitude or the rate: no kernel has it.
+        unresolved += segment.damped || segment.oriented
+                          ? step_alone(step, member)
+                          : put(step, kind_of(segment), member, segment);
       }
     }
     for (const Kind kind : {Kind::free, Kind::body, Kind::ramps, Kind::varying}) {

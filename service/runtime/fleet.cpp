@@ -231,6 +231,11 @@ bool Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcep
     changed.wheels->hub = hub;
   }
   changed.body = body;
+  for (Torque<double>& torque : changed.torques) {
+    if (auto* const gravity = std::get_if<GravityGradient<double>>(&torque)) {
+      gravity->act_on(body);
+    }
+  }
   stepper_->replace_body(vehicle, body);
   open_accounts(changed);
   return true;

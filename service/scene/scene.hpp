@@ -14,6 +14,7 @@
 
 #include "adstar/bodies/wheel.hpp"
 #include "adstar/integrators/guard.hpp"
+#include "adstar/orbit/kepler.hpp"
 #include "adstar/state.hpp"
 #include "adstar/torques/all.hpp"
 #include "service/scene/security_files.hpp"
@@ -90,6 +91,7 @@ struct Spacecraft {
   std::vector<Torque<double>> torques;
   std::vector<Actuator> actuators;
   std::vector<NamedWheel> wheels;
+  std::optional<KeplerOrbit<double>> orbit;  ///< none: none is modelled
 };
 
 /// Publication periods in whole steps; 0: not published.

@@ -8,6 +8,7 @@
 #include "adstar/bodies/rigid_body.hpp"
 #include "adstar/integrators/guard.hpp"
 #include "service/scene/inertia.hpp"
+#include "service/scene/orbit_keys.hpp"
 #include "service/scene/sections.hpp"
 #include "service/scene/torque_keys.hpp"
 #include "service/scene/wheel_keys.hpp"
@@ -31,6 +32,7 @@ struct Plan {
   Value motion_value;
   RangedVector motion_vector;
   std::vector<TorquePlan> torques;
+  std::optional<KeplerOrbit<double>> orbit;
   Value wheels_value;
   std::vector<WheelPlan> wheels;
 };
@@ -123,7 +125,7 @@ void read_seed(Keys& keys, bool drawn, Plan& plan) {
   }
 }
 
-Plan read_plan(Keys& keys, const TorqueContext& context) {
+Plan read_plan(Keys& keys, TorqueContext context) {
   Plan plan;
   const Value count = keys.optional("count");
   const Want want_count{"an integer from 1 to 1000000", "10"};
@@ -136,6 +138,9 @@ Plan read_plan(Keys& keys, const TorqueContext& context) {
   plan.q_IB = read_attitude(keys.optional("attitude_body_to_inertial"), drawn);
   read_motion(keys, plan);
   drawn = drawn || plan.motion_vector.drawn;
+  const Value orbit = keys.optional("orbit");
+  plan.orbit = read_orbit(orbit);
+  context.has_orbit = static_cast<bool>(orbit);
   plan.torques = read_torques(keys.optional("torque"), context);
   for (const TorquePlan& torque : plan.torques) {
     drawn = drawn || torque.drawn;
@@ -225,7 +230,12 @@ Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertia
       spacecraft.actuators.push_back({torque.actuator->name, spacecraft.torques.size(), limit});
     }
     spacecraft.torques.push_back(torque.make(draws));
+    if (auto* const gravity = std::get_if<GravityGradient<double>>(&spacecraft.torques.back())) {
+      gravity->orbit = *plan.orbit;
+      gravity->act_on(body);
+    }
   }
+  spacecraft.orbit = plan.orbit;
   if (!plan.wheels.empty()) {
     if (!leaves_a_body(plan.wheels, spacecraft.inertia_body_kg_m2)) {
       wheels.note(spacecraft.name,

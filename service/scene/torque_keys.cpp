@@ -165,6 +165,17 @@ TorquePlan read_damping(Keys& keys, const TorqueContext&) {
           std::nullopt, coefficient->drawn};
 }
 
+/// The orbit and the body are the spacecraft's: make_spacecraft() gives it both.
+TorquePlan read_gravity_gradient(Keys& keys, const TorqueContext& context) {
+  if (!context.has_orbit) {
+    keys.complaints().add(keys.place(), keys.path() + ".model", "\"gravity_gradient\"",
+                          "an orbit of the spacecraft beside it",
+                          "[spacecraft.orbit] with semi_major_axis_m = 6.9e6");
+    return {};
+  }
+  return {[](Draws&) -> Torque<double> { return GravityGradient<double>{}; }, std::nullopt, false};
+}
+
 struct Model {
   std::string_view name;
   TorquePlan (*read)(Keys&, const TorqueContext&);
@@ -174,7 +185,8 @@ constexpr Model kModels[] = {{Constant<double>::kName, read_constant},
                              {Harmonic<double>::kName, read_harmonic},
                              {Table<double>::kName, read_table},
                              {Commanded<double>::kName, read_commanded},
-                             {Damping<double>::kName, read_damping}};
+                             {Damping<double>::kName, read_damping},
+                             {GravityGradient<double>::kName, read_gravity_gradient}};
 static_assert(std::size(kModels) == std::variant_size_v<Torque<double>>,
               "every model of adstar/torques/all.hpp has its keys here");
 

@@ -28,6 +28,7 @@ struct TorquePlan {
 struct TorqueContext {
   const std::filesystem::path& scene_file;
   Tables tables;
+  bool has_orbit = false;  ///< the spacecraft names one
 };
 
 /// The models of one spacecraft; `value` is its "torque", which may be absent.

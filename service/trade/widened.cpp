@@ -22,6 +22,14 @@ Table<Wide> widened(const Table<double>& m) {
   return wide;
 }
 Damping<Wide> widened(const Damping<double>& m) { return {widened(m.coefficient_n_m_s_rad)}; }
+GravityGradient<Wide> widened(const GravityGradient<double>& m) {
+  const KeplerOrbit<double>& o = m.orbit;
+  const Sym3<double>& J = m.inertia_B;
+  return {{o.semi_major_axis_m, o.eccentricity, o.mean_motion_rad_s, o.mean_anomaly_rad,
+           o.gravity_m3_s2, widened(o.P), widened(o.Q)},
+          {J.xx, J.yy, J.zz, J.xy, J.xz, J.yz},
+          m.spread_kg_m2};
+}
 /// Nobody commands here.
 Commanded<Wide> widened(const Commanded<double>& m) {
   Commanded<Wide> wide;

@@ -7,12 +7,14 @@
 #include "adstar/torques/commanded.hpp"
 #include "adstar/torques/constant.hpp"
 #include "adstar/torques/damping.hpp"
+#include "adstar/torques/gravity_gradient.hpp"
 #include "adstar/torques/harmonic.hpp"
 #include "adstar/torques/table.hpp"
 
 namespace adstar {
 
 template <class T>
-using Torque = std::variant<Constant<T>, Harmonic<T>, Table<T>, Commanded<T>, Damping<T>>;
+using Torque =
+    std::variant<Constant<T>, Harmonic<T>, Table<T>, Commanded<T>, Damping<T>, GravityGradient<T>>;
 
 }  // namespace adstar

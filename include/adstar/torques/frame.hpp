@@ -2,10 +2,11 @@
 // What every torque model speaks of: the frame it is given in, time, and its course over a smooth
 // segment.
 //
-// A model is one of three kinds, told apart by the member it has:
+// A model is one of four kinds, told apart by the member it has:
 //   ramp_from(t_ns)  the torque is linear in time from t to its next edge: torque(t + τ) = start + slope τ
 //   at(t_s)          the torque is smooth in time from t to its next edge, evaluated at every stage; it
 //                    has bound() too (of its norm, for the sub-step guard) and add_at() of several instants
+//   at(t_s, q_IB)    the torque, in B, looks at the attitude too: asked at every stage; it has bound()
 //   damping()        the torque is -damping() omega_B per body axis, at every stage [N m s/rad]
 // and every model has next_edge_after(t_ns).
 
