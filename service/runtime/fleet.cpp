@@ -153,6 +153,9 @@ std::unique_ptr<Wheels> make_wheels(const scene::Spacecraft& craft) {
     return nullptr;
   }
   std::vector<SpinningWheel<double>> spinning = scene::spinning_wheels(craft);
+  for (SpinningWheel<double>& each : spinning) {
+    each.order = each.motor.standing;
+  }
   RigidBody<double> hub(hub_inertia<double>(craft.inertia_body_kg_m2, spinning));
   return std::make_unique<Wheels>(Wheels{std::move(hub), std::move(spinning)});
 }
@@ -262,13 +265,16 @@ bool Fleet::reset() noexcept {
     Vehicle& vehicle = vehicles_[i];
     const Start& start = start_[i];
     vehicle.flags = 0;
+    vehicle.state = start.state;
     if (start.body.inertia() != vehicle.body.inertia()) {
       set_body(i, start.body);
+      vehicle.state = start.state;
     }
-    vehicle.state = start.state;
     for (std::size_t k = 0; k < start.wheel_momenta.size(); ++k) {
-      vehicle.wheels->spinning[k].h = start.wheel_momenta[k];
-      vehicle.wheels->spinning[k].motor.intervals = 0;
+      SpinningWheel<double>& spinning = vehicle.wheels->spinning[k];
+      spinning.h = start.wheel_momenta[k];
+      spinning.motor.intervals = 0;
+      spinning.order = spinning.motor.standing;
     }
     vehicle.H_0 = start.H_0;
     vehicle.E_0 = start.E_0;

@@ -9,7 +9,6 @@ namespace adstar::scene {
 namespace {
 
 constexpr std::size_t kMostWheels = 64;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::optional<Vec3<double>> read_axis(Keys& keys) {
   constexpr std::string_view kExample = "[1.0, 0.0, 0.0]";

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstring>
 #include <memory>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -119,7 +119,7 @@ FleetState uninterrupted(const scene::Scene& scene, const std::vector<JournalRec
 
 template <class T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+  return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
 }
 bool same_bits(const FleetState& a, const FleetState& b) {
   return same_bits(a.vehicles, b.vehicles) && same_bits(a.wheel_momenta, b.wheel_momenta);

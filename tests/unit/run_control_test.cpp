@@ -132,6 +132,18 @@ TEST(SetInertia, keeps_momentum_and_attitude_to_the_last_bit_and_opens_the_accou
   EXPECT_EQ(told.rotational_energy_j, after.body.energy(body_momentum(after.state)));
 }
 
+TEST(SetInertia, is_taken_back_by_a_reset_whatever_became_of_the_state) {
+  Fleet fleet({make_craft(0)}, "coadjoint_rk4", StepLimits{});
+  fleet.keep_start();
+  const Sym3<double> J = fleet.vehicles()[0].body.inertia();
+  const State<double> start = fleet.vehicles()[0].state;
+  ASSERT_EQ(apply_control(inertia(0, kDeployed), fleet).refusal, ControlRefusal::none);
+  fleet.vehicles()[0].state.H_I.x.value = kNaN;
+  ASSERT_TRUE(fleet.reset());
+  EXPECT_EQ(fleet.vehicles()[0].body.inertia(), J);
+  EXPECT_EQ(fleet.vehicles()[0].state, start);
+}
+
 TEST(SetInertia, refuses_what_is_no_rigid_bodys_and_changes_nothing) {
   Fleet fleet({make_craft(0)}, "coadjoint_rk4", StepLimits{});
   const State<double> before = fleet.vehicles()[0].state;
