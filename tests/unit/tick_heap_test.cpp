@@ -15,7 +15,8 @@ using test::kMs;
 
 TEST(TickHeap, is_not_touched_by_a_run_with_commands_telemetry_and_snapshots) {
   scene::Scene scene = test::tick_scene(5'000);
-  scene.telemetry = {1, 1, 1, {0, 1}};
+  scene.spacecraft[1] = test::with_wheels(scene.spacecraft[1]);
+  scene.telemetry = {1, 1, 1, {0, 1}, 1};
   MappedSegment segment = MappedSegment::create(2);
   Tick tick(scene, segment);
   for (std::uint64_t n = 1; n <= 4000; ++n) {
@@ -23,6 +24,8 @@ TEST(TickHeap, is_not_touched_by_a_run_with_commands_telemetry_and_snapshots) {
     command.commander = {n % 37, n % 11};
     command.sequence = n;
     command.spacecraft = n % 50 == 0 ? 77 : static_cast<std::uint32_t>(n % 2);
+    command.actuator = command.spacecraft == 1 ? static_cast<std::uint32_t>(n / 2 % 2) : 0;
+    command.of_speed = command.actuator == 1 && n % 5 == 0 ? 1 : 0;
     command.priority = static_cast<std::int32_t>(n % 3);
     command.start_ns = static_cast<std::int64_t>(n % 400) * 3 * kMs;
     command.duration_ns = static_cast<std::int64_t>(n % 17) * kMs;
