@@ -62,7 +62,8 @@ const char* reason_text(Reason reason) noexcept {
     case Reason::unknown_spacecraft:
       return "no service here flies a spacecraft of that name; see `adstar list`";
     case Reason::unknown_actuator:
-      return "the spacecraft has no actuator of that name and kind; see `adstar list`, or add to the "
+      return "the spacecraft has no actuator of that name and kind; see `adstar list`, or add to "
+             "the "
              "scene a torque with model = \"commanded\", or commanded = true to a wheel";
     case Reason::not_finite:
       return "the torque holds a NaN or an infinity; send finite numbers in N m";
