@@ -233,7 +233,7 @@ bool run_gyrostat(const RigidBody<T>& hub, State<T>& state, std::span<SpinningWh
 
 }  // namespace detail
 
-/// Advances `state` and `wheels` from t_ns to t_ns + h_ns [ns]; `hub`: of hub_inertia(). Never throws, never
+/// Advances `state` and `wheels` from t_ns to t_ns + h_ns [ns]; `hub`: of hub_of(). Never throws, never
 /// allocates. An attitude that the step could not follow stays as it was, and so do the wheels.
 template <TakesWheels Scheme, class T>
 StepReport advance(const RigidBody<T>& hub, State<T>& state, std::span<SpinningWheel<T>> wheels,
@@ -248,14 +248,7 @@ StepReport advance(const RigidBody<T>& hub, State<T>& state, std::span<SpinningW
       edge_ns = std::min(edge_ns, spinning.motor.next_edge_after(t_ns));
       spinning.order = spinning.motor.order_at(t_ns);
     }
-    std::int64_t next_ns = end_ns;
-    if (edge_ns < end_ns) {
-      if (segments < limits.edges) {
-        next_ns = edge_ns;
-      } else {
-        report.unresolved_edges = true;
-      }
-    }
+    const std::int64_t next_ns = detail::end_of_segment(edge_ns, end_ns, segments, limits, report);
     const T length_s = seconds<T>(next_ns - t_ns);
     const detail::Segment<T> segment = detail::make_segment(torques, t_ns);
     const Vec3<T> Pi_B = body_momentum(state);

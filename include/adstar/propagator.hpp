@@ -178,6 +178,19 @@ inline void note(StepReport& report, const SubstepCount& count, bool followed) n
   report.attitude_lost = report.attitude_lost || (!followed && count.within_limit);
 }
 
+/// Where the segment ends that `segments` others went before: at the next edge, unless there are too many.
+inline std::int64_t end_of_segment(std::int64_t edge_ns, std::int64_t end_ns, std::int64_t segments,
+                                   const StepLimits& limits, StepReport& report) noexcept {
+  if (edge_ns >= end_ns) {
+    return end_ns;
+  }
+  if (segments < limits.edges) {
+    return edge_ns;
+  }
+  report.unresolved_edges = true;
+  return end_ns;
+}
+
 /// advance() of a body that names no torque.
 template <class Scheme, class T>
 StepReport advance_free(const BodyOf<Scheme, T>& body, State<T>& state, const T& h_s,
@@ -211,15 +224,8 @@ StepReport advance(const BodyOf<Scheme, T>& body, State<T>& state,
   StepReport report;
   const std::int64_t end_ns = t_ns + h_ns;
   for (std::int64_t segments = 0; t_ns < end_ns; ++segments) {
-    std::int64_t next_ns = end_ns;
-    const std::int64_t edge_ns = detail::next_edge_after(torques, t_ns);
-    if (edge_ns < end_ns) {
-      if (segments < limits.edges) {
-        next_ns = edge_ns;
-      } else {
-        report.unresolved_edges = true;
-      }
-    }
+    const std::int64_t next_ns = detail::end_of_segment(detail::next_edge_after(torques, t_ns),
+                                                        end_ns, segments, limits, report);
     const T length_s = seconds<T>(next_ns - t_ns);
     const detail::Segment<T> segment = detail::make_segment(torques, t_ns);
     const T impulse = detail::impulse_bound(segment, length_s);

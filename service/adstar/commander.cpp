@@ -49,9 +49,7 @@ bool Answer::is_final() const { return forgotten || dds::is_final(verdict); }
 Commander::Commander(const dds::Participant& participant, Target target)
     : target_(std::move(target)),
       id_(random_id()),
-      torques_(participant),
-      wheel_torques_(participant),
-      wheel_speeds_(participant),
+      participant_(participant),
       reader_(participant),
       wait_set_(participant) {
   wait_set_.attach(reader_);
@@ -61,6 +59,22 @@ std::uint64_t Commander::give(const Order& order) {
   const std::uint64_t sequence = ++last_sequence_;
   Dispatch dispatch;
   dispatch.order = order;
+  const auto make = [this](auto& writer) {
+    if (!writer) {
+      writer.emplace(participant_);
+    }
+  };
+  switch (order.what) {
+    case Ordered::torque:
+      make(torques_);
+      break;
+    case Ordered::wheel_torque:
+      make(wheel_torques_);
+      break;
+    case Ordered::wheel_speed:
+      make(wheel_speeds_);
+      break;
+  }
   dispatch.heard = dispatch.next_send = Clock::now();
   dispatches_.emplace(sequence, std::move(dispatch));
   return sequence;
@@ -90,22 +104,27 @@ void Commander::send(std::uint64_t sequence, const Order& order) {
     case Ordered::torque: {
       auto command = header_of<adstar_TorqueCommand>(sequence, order);
       command.torque_n_m = {order.torque_n_m[0], order.torque_n_m[1], order.torque_n_m[2]};
-      torques_.write(command);
+      torques_->write(command);
       break;
     }
     case Ordered::wheel_torque: {
       auto command = header_of<adstar_WheelTorqueCommand>(sequence, order);
       command.motor_torque_n_m = order.torque_n_m[0];
-      wheel_torques_.write(command);
+      wheel_torques_->write(command);
       break;
     }
     case Ordered::wheel_speed: {
       auto command = header_of<adstar_WheelSpeedCommand>(sequence, order);
       command.speed_rad_s = order.speed_rad_s;
-      wheel_speeds_.write(command);
+      wheel_speeds_->write(command);
       break;
     }
   }
+}
+
+bool Commander::heard_by_anyone() const {
+  const auto heard = [](const auto& writer) { return writer && writer->matched() > 0; };
+  return heard(torques_) || heard(wheel_torques_) || heard(wheel_speeds_);
 }
 
 void Commander::work(std::chrono::milliseconds patience) {

@@ -84,7 +84,7 @@ class Commander {
   bool silent(std::uint64_t sequence, std::chrono::nanoseconds timeout) const;
 
   /// Some service listens to commands.
-  bool heard_by_anyone() const { return torques_.matched() > 0; }
+  bool heard_by_anyone() const;
 
  private:
   void send_due(Clock::time_point now);
@@ -100,9 +100,11 @@ class Commander {
   runtime::CommanderId id_;
   std::uint64_t last_sequence_ = 0;
   std::map<std::uint64_t, Dispatch> dispatches_;
-  dds::Writer<adstar_TorqueCommand> torques_;
-  dds::Writer<adstar_WheelTorqueCommand> wheel_torques_;
-  dds::Writer<adstar_WheelSpeedCommand> wheel_speeds_;
+  const dds::Participant& participant_;
+  std::optional<dds::Writer<adstar_TorqueCommand>>
+      torques_;  ///< each made for the first order of its kind
+  std::optional<dds::Writer<adstar_WheelTorqueCommand>> wheel_torques_;
+  std::optional<dds::Writer<adstar_WheelSpeedCommand>> wheel_speeds_;
   dds::Reader<adstar_CommandStatus> reader_;
   dds::WaitSet wait_set_;
 };

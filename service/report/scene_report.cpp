@@ -67,11 +67,9 @@ double speed_bound_squared(const RigidBody<double>& hub,
 }
 
 SubstepCount count_with_wheels(const std::string& scheme, const RigidBody<double>& hub,
-                               std::vector<SpinningWheel<double>> wheels, const Vec3<double>& Pi_B,
-                               double decay, double h, const StepLimits& limits) {
-  for (SpinningWheel<double>& spinning : wheels) {
-    spinning.order = spinning.motor.standing;
-  }
+                               const std::vector<SpinningWheel<double>>& wheels,
+                               const Vec3<double>& Pi_B, double decay, double h,
+                               const StepLimits& limits) {
   SubstepCount count;
   with_scheme(scheme, [&](auto s) {
     if constexpr (TakesWheels<decltype(s)>) {
@@ -93,7 +91,8 @@ std::string turn_report(const scene::Scene& scene) {
   bool resolved = true;
   for (const scene::Spacecraft& craft : scene.spacecraft) {
     const std::vector<SpinningWheel<double>> wheels = scene::spinning_wheels(craft);
-    const RigidBody<double> body(hub_inertia<double>(craft.inertia_body_kg_m2, wheels));
+    const RigidBody<double> body = hub_of(RigidBody<double>(craft.inertia_body_kg_m2),
+                                          std::span<const SpinningWheel<double>>(wheels));
     const Vec3<double> Pi_B = body_momentum(craft.initial);
     const double turn = h * std::sqrt(speed_bound_squared(body, wheels, Pi_B));
     if (turn > largest) {

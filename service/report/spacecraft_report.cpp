@@ -145,9 +145,8 @@ void add(Group& group, const scene::Spacecraft& craft) {
     group.moments[i].add(body.moments()[i]);
   }
   const std::vector<SpinningWheel<double>> wheels = scene::spinning_wheels(craft);
-  const RigidBody<double> hub(hub_inertia<double>(craft.inertia_body_kg_m2, wheels));
-  group.rate.add(
-      norm(angular_velocity(hub, std::span(std::as_const(wheels)), body_momentum(craft.initial))));
+  const std::span<const SpinningWheel<double>> all(wheels);
+  group.rate.add(norm(angular_velocity(hub_of(body, all), all, body_momentum(craft.initial))));
   group.momentum.add(norm(craft.initial.H_I.value()));
 }
 

@@ -153,11 +153,9 @@ std::unique_ptr<Wheels> make_wheels(const scene::Spacecraft& craft) {
     return nullptr;
   }
   std::vector<SpinningWheel<double>> spinning = scene::spinning_wheels(craft);
-  for (SpinningWheel<double>& each : spinning) {
-    each.order = each.motor.standing;
-  }
-  RigidBody<double> hub(hub_inertia<double>(craft.inertia_body_kg_m2, spinning));
-  return std::make_unique<Wheels>(Wheels{std::move(hub), std::move(spinning)});
+  const RigidBody<double> hub =
+      hub_of(RigidBody<double>(craft.inertia_body_kg_m2), std::span(std::as_const(spinning)));
+  return std::make_unique<Wheels>(Wheels{hub, std::move(spinning)});
 }
 
 }  // namespace
@@ -200,10 +198,11 @@ void Fleet::set_state(std::size_t vehicle, const Quat<double>& q_IB,
 bool Fleet::set_motion(std::size_t vehicle, const Quat<double>& q_IB,
                        const Vec3<double>& omega_B) noexcept {
   const Vehicle& moved = vehicles_[vehicle];
-  const Vec3<double> rates = angular_velocity_of(moved);
+  Wheels* const wheels = moved.wheels.get();
+  const Vec3<double> rates = wheels == nullptr ? omega_B : angular_velocity_of(moved);
   Vec3<double> Pi_B = moved.body.momentum(omega_B);
-  if (moved.wheels != nullptr) {
-    for (const SpinningWheel<double>& spinning : moved.wheels->spinning) {
+  if (wheels != nullptr) {
+    for (const SpinningWheel<double>& spinning : wheels->spinning) {
       Pi_B = Pi_B +
              (spinning.wheel.spin_inertia_kg_m2 * spinning.speed(rates)) * spinning.wheel.axis_B;
     }
@@ -211,8 +210,8 @@ bool Fleet::set_motion(std::size_t vehicle, const Quat<double>& q_IB,
   if (!can_turn(moved.body, Pi_B)) {
     return false;
   }
-  if (moved.wheels != nullptr) {
-    for (SpinningWheel<double>& spinning : moved.wheels->spinning) {
+  if (wheels != nullptr) {
+    for (SpinningWheel<double>& spinning : wheels->spinning) {
       spinning.keep_speed(rates, omega_B);
     }
   }
@@ -220,20 +219,18 @@ bool Fleet::set_motion(std::size_t vehicle, const Quat<double>& q_IB,
   return true;
 }
 
-bool Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept {
+bool Fleet::can_have_body(std::size_t vehicle, const RigidBody<double>& body) const noexcept {
+  const Vehicle& asked = vehicles_[vehicle];
+  return can_turn(body, body_momentum(asked.state)) &&
+         (asked.wheels == nullptr || is_body_beside_wheels(hub_of(body, asked.wheels->all())));
+}
+
+void Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept {
   Vehicle& changed = vehicles_[vehicle];
-  if (!can_turn(body, body_momentum(changed.state))) {
-    return false;
-  }
-  if (changed.wheels != nullptr) {
-    const RigidBody<double> hub(
-        hub_inertia<double>(matrix_of(body.inertia()), changed.wheels->spinning));
-    if (!is_body_beside_wheels(hub)) {
-      return false;
-    }
-    changed.wheels->hub = hub;
-  }
   changed.body = body;
+  if (changed.wheels != nullptr) {
+    changed.wheels->hub = hub_of(body, changed.wheels->all());
+  }
   for (Torque<double>& torque : changed.torques) {
     if (auto* const gravity = std::get_if<GravityGradient<double>>(&torque)) {
       gravity->act_on(body);
@@ -241,7 +238,6 @@ bool Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcep
   }
   stepper_->replace_body(vehicle, body);
   open_accounts(changed);
-  return true;
 }
 
 void Fleet::keep_start() {
@@ -265,11 +261,10 @@ bool Fleet::reset() noexcept {
     Vehicle& vehicle = vehicles_[i];
     const Start& start = start_[i];
     vehicle.flags = 0;
-    vehicle.state = start.state;
     if (start.body.inertia() != vehicle.body.inertia()) {
       set_body(i, start.body);
-      vehicle.state = start.state;
     }
+    vehicle.state = start.state;
     for (std::size_t k = 0; k < start.wheel_momenta.size(); ++k) {
       SpinningWheel<double>& spinning = vehicle.wheels->spinning[k];
       spinning.h = start.wheel_momenta[k];

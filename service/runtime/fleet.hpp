@@ -77,9 +77,10 @@ class Fleet {
                   const Vec3<double>& omega_B) noexcept;
 
   /// Another mass distribution, wheels locked: all momenta and the attitude keep their bits, the rate changes.
-  /// The accounts begin anew. False, and nothing is changed, when it leaves no body beside the wheels, or a
-  /// motion beyond the range of double.
-  bool set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept;
+  /// The accounts begin anew.
+  void set_body(std::size_t vehicle, const RigidBody<double>& body) noexcept;
+  /// Whether it leaves a body beside the wheels, and a motion within the range of double.
+  bool can_have_body(std::size_t vehicle, const RigidBody<double>& body) const noexcept;
 
   /// Keeps a copy of what the vehicles are now, for reset().
   void keep_start();

@@ -77,11 +77,10 @@ inline bool restore(Fleet& fleet, const FleetState& saved) {
   for (std::size_t i = 0; i < saved.vehicles.size(); ++i) {
     Vehicle& vehicle = fleet.vehicles()[i];
     const VehicleState& state = saved.vehicles[i];
-    vehicle.state = state.state;
     if (state.inertia_B != vehicle.body.inertia()) {
       fleet.set_body(i, RigidBody<double>(matrix_of(state.inertia_B)));
-      vehicle.state = state.state;
     }
+    vehicle.state = state.state;
     vehicle.flags = static_cast<std::uint32_t>(state.flags);
     vehicle.H_0 = state.H_0;
     vehicle.E_0 = state.E_0;

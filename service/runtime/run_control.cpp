@@ -33,8 +33,12 @@ ControlRefusal set_inertia(const ControlRecord& record, Fleet& fleet) noexcept {
   }
   Eigen::Matrix3d J;
   J << j[0], j[3], j[4], j[3], j[1], j[5], j[4], j[5], j[2];
-  return fleet.set_body(record.spacecraft, RigidBody<double>(J)) ? ControlRefusal::none
-                                                                 : ControlRefusal::bad_inertia;
+  const RigidBody<double> body(J);
+  if (!fleet.can_have_body(record.spacecraft, body)) {
+    return ControlRefusal::bad_inertia;
+  }
+  fleet.set_body(record.spacecraft, body);
+  return ControlRefusal::none;
 }
 
 ControlRefusal act(const ControlRecord& record, Fleet& fleet) noexcept {

@@ -3,13 +3,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "adstar/trig.hpp"
+#include "service/scene/complaints.hpp"
+
 namespace adstar::scene {
 namespace {
 
 constexpr std::string_view kExample = "semi_major_axis_m = 6.9e6 in [spacecraft.orbit]";
 
+constexpr double kMostEccentric = 0.99;  // so far Kepler's equation is solved in a few steps
+
 double read_angle(Keys& keys, std::string_view key) {
   return read_number(keys.optional(key), {"an angle in rad", "0.0"}).value_or(0);
+}
+
+/// Of a unit vector, by an arc tangent whose bits are our own.
+double angle_of(double cosine, double sine) {
+  if (cosine >= 0) {
+    return 2 * atan(sine / (1 + cosine));
+  }
+  return std::copysign(std::numbers::pi, sine) - 2 * atan(sine / (1 - cosine));
 }
 
 /// r and v in I to the elements of the same ellipse (Vallado, Fundamentals of Astrodynamics and Applications,
@@ -31,6 +44,11 @@ std::optional<KeplerOrbit<double>> from_vectors(const Value& at, const Vec3<doub
   orbit.mean_motion_rad_s = std::sqrt(gravity / orbit.semi_major_axis_m) / orbit.semi_major_axis_m;
   const Vec3<double> e = (1 / gravity) * cross(v, area) - (1 / distance) * r;
   orbit.eccentricity = norm(e);
+  if (orbit.eccentricity > kMostEccentric) {
+    at.refuse_as("an ellipse of eccentricity " + number_text(orbit.eccentricity),
+                 "an eccentricity from 0 to 0.99", "a velocity more across the position");
+    return std::nullopt;
+  }
   constexpr double kCircular = 1e-12;  // below it the periapsis is round-off: the start will do
   if (orbit.eccentricity < kCircular) {
     orbit.eccentricity = 0;
@@ -42,8 +60,7 @@ std::optional<KeplerOrbit<double>> from_vectors(const Value& at, const Vec3<doub
   const double x = dot(r, orbit.P) / orbit.semi_major_axis_m + orbit.eccentricity;
   const double y = dot(r, orbit.Q) / (orbit.semi_major_axis_m *
                                       std::sqrt(1 - orbit.eccentricity * orbit.eccentricity));
-  const double E = std::atan2(y, x);
-  orbit.mean_anomaly_rad = E - orbit.eccentricity * std::sin(E);
+  orbit.mean_anomaly_rad = angle_of(x, y) - orbit.eccentricity * y;
   return orbit;
 }
 
@@ -83,9 +100,10 @@ std::optional<KeplerOrbit<double>> read_orbit(const Value& value) {
     elements.semi_major_axis_m =
         read_positive(keys.required("semi_major_axis_m", axis), axis).value_or(1);
     const Value eccentricity = keys.optional("eccentricity");
-    elements.eccentricity = read_number(eccentricity, NumberRange{.least = 0.0, .most = 0.99},
-                                        {"an eccentricity from 0 to 0.99", "0.001"})
-                                .value_or(0);
+    elements.eccentricity =
+        read_number(eccentricity, NumberRange{.least = 0.0, .most = kMostEccentric},
+                    {"an eccentricity from 0 to 0.99", "0.001"})
+            .value_or(0);
     elements.inclination_rad = read_angle(keys, "inclination_rad");
     elements.right_ascension_rad = read_angle(keys, "right_ascension_rad");
     elements.argument_of_periapsis_rad = read_angle(keys, "argument_of_periapsis_rad");

@@ -237,7 +237,7 @@ Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertia
   }
   spacecraft.orbit = plan.orbit;
   if (!plan.wheels.empty()) {
-    if (!leaves_a_body(plan.wheels, spacecraft.inertia_body_kg_m2)) {
+    if (!leaves_a_body(plan.wheels, body)) {
       wheels.note(spacecraft.name,
                   {"wheels as heavy as the body about an axis",
                    "inertia_body_kg_m2 with the wheels in it, and something left beside them",

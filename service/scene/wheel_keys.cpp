@@ -18,12 +18,14 @@ std::optional<Vec3<double>> read_axis(Keys& keys) {
   if (!given) {
     return std::nullopt;
   }
-  const double length = std::hypot(given->x, given->y, given->z);
-  if (!(length > 0) || !std::isfinite(length)) {
+  const double largest = std::max({std::fabs(given->x), std::fabs(given->y), std::fabs(given->z)});
+  if (largest == 0) {
     value.refuse("a direction, not all zeros", kExample);
     return std::nullopt;
   }
-  return Vec3<double>{given->x / length, given->y / length, given->z / length};
+  const Vec3<double> a{given->x / largest, given->y / largest, given->z / largest};
+  const double length = norm(a);
+  return Vec3<double>{a.x / length, a.y / length, a.z / length};
 }
 
 double read_not_negative(Keys& keys, std::string_view key, std::string_view expected) {
@@ -84,11 +86,17 @@ void read_motor(Keys& keys, WheelPlan& plan) {
     wheel.speed_gain_n_m_s_rad =
         given.value_or(wheel.max_torque_n_m / (kFullTorqueAt * wheel.max_speed_rad_s));
     plan.standing = read_standing_order(keys, wheel);
+    if (const Value speed = keys.optional("speed_rad_s");
+        speed && std::fabs(plan.speed_rad_s) > wheel.max_speed_rad_s) {
+      speed.refuse("no more than max_speed_rad_s = " + number_text(wheel.max_speed_rad_s),
+                   number_text(std::copysign(wheel.max_speed_rad_s, plan.speed_rad_s)));
+    }
     return;
   }
   // Nothing of a motor without one.
   for (const std::string_view key :
-       {"speed_gain_n_m_s_rad", "motor_torque_n_m", "hold_speed_rad_s", "commanded"}) {
+       {"max_speed_rad_s", "max_momentum_n_m_s", "speed_gain_n_m_s_rad", "motor_torque_n_m",
+        "hold_speed_rad_s", "commanded"}) {
     if (const Value value = keys.optional(key)) {
       value.refuse_as("a motor's key without a motor", "max_torque_n_m beside it",
                       "max_torque_n_m = 0.1");
@@ -170,12 +178,12 @@ Vec3<double> momentum_relative_to_body(const std::vector<WheelPlan>& plan) {
   return sum;
 }
 
-bool leaves_a_body(const std::vector<WheelPlan>& plan, const Eigen::Matrix3d& inertia_B) {
-  std::vector<Wheel<double>> wheels;
-  for (const WheelPlan& each : plan) {
-    wheels.push_back(each.wheel);
+bool leaves_a_body(const std::vector<WheelPlan>& plan, const RigidBody<double>& body) {
+  std::vector<SpinningWheel<double>> wheels(plan.size());
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    wheels[i].wheel = plan[i].wheel;
   }
-  return is_body_beside_wheels(RigidBody<double>(hub_inertia<double>(inertia_B, wheels)));
+  return is_body_beside_wheels(hub_of(body, std::span<const SpinningWheel<double>>(wheels)));
 }
 
 void add_wheels(const std::vector<WheelPlan>& plan, const Vec3<double>& omega_B,
@@ -183,7 +191,7 @@ void add_wheels(const std::vector<WheelPlan>& plan, const Vec3<double>& omega_B,
   for (const WheelPlan& each : plan) {
     SpinningWheel<double> spinning;
     spinning.wheel = each.wheel;
-    spinning.motor.standing = each.standing;
+    spinning.motor.standing = spinning.order = each.standing;
     spinning.start_at(each.speed_rad_s, omega_B);
     if (each.commanded) {
       spacecraft.actuators.push_back({each.name,

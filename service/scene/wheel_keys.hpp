@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "adstar/bodies/rigid_body.hpp"
 #include "service/scene/keys.hpp"
 #include "service/scene/scene.hpp"
 
@@ -30,6 +31,6 @@ void add_wheels(const std::vector<WheelPlan>& plan, const Vec3<double>& omega_B,
 Vec3<double> momentum_relative_to_body(const std::vector<WheelPlan>& plan);
 
 /// Whether the wheels leave a body with inertia about every axis.
-bool leaves_a_body(const std::vector<WheelPlan>& plan, const Eigen::Matrix3d& inertia_B);
+bool leaves_a_body(const std::vector<WheelPlan>& plan, const RigidBody<double>& body);
 
 }  // namespace adstar::scene

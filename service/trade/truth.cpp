@@ -35,7 +35,8 @@ std::vector<TrueState> by_small_steps(const scene::Spacecraft& craft,
                                       const std::function<void(std::int64_t)>& look) {
   constexpr std::int64_t kLookEvery = 256;
   WideWheels wheels = widened_wheels(craft);
-  const RigidBody<Wide> hub(hub_inertia<Wide>(matrix_of(widened_body(craft).inertia()), wheels));
+  const RigidBody<Wide> hub =
+      hub_of(widened_body(craft), std::span<const SpinningWheel<Wide>>(wheels));
   const std::vector<Torque<Wide>> torques = widened(craft.torques);
   State<Wide> state = widened_start(craft);
   std::vector<TrueState> states;

@@ -82,7 +82,7 @@ inline scene::Spacecraft with_wheels(scene::Spacecraft craft) {
     wheel.speed_gain_n_m_s_rad = 0.01;
     wheel.viscous_n_m_s_rad = i == 1 ? 1e-4 : 0;
     wheel.coulomb_n_m = i == 1 ? 1e-3 : 0;
-    spinning.motor.standing = {i == 1, i == 1 ? 40.0 : 0.0};
+    spinning.motor.standing = spinning.order = {i == 1, i == 1 ? 40.0 : 0.0};
     spinning.start_at(i == 1 ? 30.0 : -10.0, omega_B);
     Pi_B = Pi_B + (wheel.spin_inertia_kg_m2 * (i == 1 ? 30.0 : -10.0)) * wheel.axis_B;
     craft.wheels.push_back({i == 0 ? "w0" : "w1", spinning});

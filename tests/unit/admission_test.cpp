@@ -43,6 +43,15 @@ TEST(Admission, measures_the_step_at_its_dearest) {
   EXPECT_GT(dear.p99_ns, 20 * cheap.p99_ns) << "two thousand parts cost more than one";
 }
 
+TEST(Admission, measures_wheels_with_their_motors_in_force) {
+  scene::Scene scene = paced();
+  scene.spacecraft = {test::with_wheels(test::make_craft(0))};
+  scene.simulation.limits.substeps = 1;
+  const StepCost cheap = quietest(scene);
+  scene.simulation.limits.substeps = 2000;
+  EXPECT_GT(measure_step(scene).p99_ns, 20 * cheap.p99_ns);
+}
+
 TEST(Admission, lets_a_step_pass_that_fits_the_beat_or_its_budget) {
   scene::Scene scene = paced();  // a beat of 10 ms
   EXPECT_EQ(why_it_does_not_fit(scene, {10 * kMs, 2000}), "");

@@ -24,6 +24,7 @@ using test::verdicts_of;
 
 scene::Scene pair_scene(std::int64_t steps, std::uint64_t lead) {
   scene::Scene scene = test::tick_scene(steps);
+  scene.spacecraft[1] = test::with_wheels(scene.spacecraft[1]);
   scene.standby = scene::Standby{lead, 100 * kMs};
   return scene;
 }
@@ -35,6 +36,10 @@ CommandRecord command(std::uint64_t sequence, double torque) {
   record.spacecraft = static_cast<std::uint32_t>(sequence % 2);
   record.duration_ns = 35 * kMs;
   record.torque_n_m = {torque, -torque, 0.5 * torque};
+  if (sequence % 4 == 3) {  // the wheel of the second spacecraft
+    record.actuator = 1;
+    record.torque_n_m = {torque, 0, 0};
+  }
   return record;
 }
 

@@ -91,6 +91,10 @@ TEST(SceneOrbit, refuses_what_is_no_ellipse) {
                                   "velocity_inertial_m_s = [0, 12000, 0]\n"))
                 .find("a velocity below escape"),
             std::string::npos);
+  EXPECT_NE(refusal(in_spacecraft("[spacecraft.orbit]\nposition_inertial_m = [7e6, 0, 0]\n"
+                                  "velocity_inertial_m_s = [7000, 100, 0]\n"))
+                .find("an ellipse of eccentricity 0.99"),
+            std::string::npos);
   EXPECT_NE(refusal(in_spacecraft("[spacecraft.orbit]\nposition_inertial_m = [7e6, 0, 0]\n"))
                 .find("velocity_inertial_m_s: got nothing"),
             std::string::npos);

@@ -98,6 +98,12 @@ TEST(SceneWheel, refuses_what_no_wheel_has) {
   EXPECT_EQ(refusal(in_wheel("commanded = true\n")),
             "scene.toml:10:13: spacecraft[0].wheel[0].commanded: got a motor's key without a "
             "motor, expected max_torque_n_m beside it; try max_torque_n_m = 0.1");
+  EXPECT_EQ(refusal(in_wheel("max_speed_rad_s = 600\n")),
+            "scene.toml:10:19: spacecraft[0].wheel[0].max_speed_rad_s: got a motor's key without a "
+            "motor, expected max_torque_n_m beside it; try max_torque_n_m = 0.1");
+  EXPECT_EQ(refusal(in_wheel(kMotor + "speed_rad_s = 601\n")),
+            "scene.toml:12:15: spacecraft[0].wheel[0].speed_rad_s: got 601, expected no more than "
+            "max_speed_rad_s = 600; try 600");
   EXPECT_EQ(refusal(in_wheel(kMotor + "motor_torque_n_m = 0.3\n")),
             "scene.toml:12:20: spacecraft[0].wheel[0].motor_torque_n_m: got 0.3, expected no more "
             "than max_torque_n_m = 0.2; try 0.2");

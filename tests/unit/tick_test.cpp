@@ -91,30 +91,6 @@ TEST(Tick, publishes_the_start_and_then_each_topic_at_its_own_rate) {
   EXPECT_EQ(tick.report().telemetry_lost.load(), 0U);
 }
 
-TEST(Tick, publishes_the_wheels_of_who_is_watched_at_their_own_rate) {
-  scene::Scene scene = tick_scene(100);
-  scene.spacecraft = {test::with_wheels(scene.spacecraft[0]),
-                      test::with_wheels(scene.spacecraft[1])};
-  scene.telemetry.wheel_every = 50;
-  MappedSegment segment = MappedSegment::create(2);
-  Tick tick(scene, segment);
-  tick.run(kGoOn);
-  std::uint64_t count = 0;
-  WheelRecord last;
-  while (const auto record = segment->wheels.pop()) {
-    EXPECT_EQ(record->spacecraft, 1U) << "only who is watched";
-    EXPECT_EQ(record->wheel, count % 2);
-    EXPECT_EQ(record->step, count / 2 * 50);
-    EXPECT_EQ(record->time_ns, static_cast<std::int64_t>(record->step) * 10 * kMs);
-    last = *record;
-    ++count;
-  }
-  EXPECT_EQ(count, 6U) << "two wheels at steps 0, 50 and 100";
-  const Vehicle& vehicle = tick.fleet().vehicles()[1];
-  EXPECT_EQ(last.speed_rad_s, vehicle.wheels->spinning[1].speed(angular_velocity_of(vehicle)));
-  EXPECT_EQ(last.momentum_n_m_s, vehicle.wheels->spinning[1].h.value);
-}
-
 TEST(Tick, says_nothing_on_a_topic_that_is_off) {
   scene::Scene scene = tick_scene(50);
   scene.telemetry.attitude_every = 0;

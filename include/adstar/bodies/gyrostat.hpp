@@ -17,36 +17,30 @@
 
 namespace adstar {
 
-/// J_r [kg m²]; `inertia_B`: J_B, wheels locked. Anything with a `wheel`, or a Wheel itself.
-template <class T, class Wheels>
-Eigen::Matrix<T, 3, 3> hub_inertia(Eigen::Matrix<T, 3, 3> inertia_B, const Wheels& wheels) {
-  for (const auto& one : wheels) {
-    const Wheel<T>& wheel = [&]() -> const Wheel<T>& {
-      if constexpr (requires { one.wheel; }) {
-        return one.wheel;
-      } else {
-        return one;
-      }
-    }();
-    if (!wheel.constant_speed) {
-      const Eigen::Matrix<T, 3, 1> a = to_eigen(wheel.axis_B);
-      inertia_B -= wheel.spin_inertia_kg_m2 * (a * a.transpose());
+template <class T>
+Eigen::Matrix<T, 3, 3> matrix_of(const Sym3<T>& J) {
+  Eigen::Matrix<T, 3, 3> matrix;
+  matrix << J.xx, J.xy, J.xz, J.xy, J.yy, J.yz, J.xz, J.yz, J.zz;
+  return matrix;
+}
+
+/// J_r of J_B: the body without what turns freely in it.
+template <class T>
+RigidBody<T> hub_of(const RigidBody<T>& body, std::span<const SpinningWheel<T>> wheels) {
+  Eigen::Matrix<T, 3, 3> J = matrix_of(body.inertia());
+  for (const SpinningWheel<T>& spinning : wheels) {
+    if (!spinning.wheel.constant_speed) {
+      const Eigen::Matrix<T, 3, 1> a = to_eigen(spinning.wheel.axis_B);
+      J -= spinning.wheel.spin_inertia_kg_m2 * (a * a.transpose());
     }
   }
-  return inertia_B;
+  return RigidBody<T>(J);
 }
 
 /// Whether there is something beside the wheels, about every axis, to more than round-off.
 template <class T>
 bool is_body_beside_wheels(const RigidBody<T>& hub) {
   return hub.moments()[0] > T(1e-12) * hub.moments()[2];
-}
-
-template <class T>
-Eigen::Matrix<T, 3, 3> matrix_of(const Sym3<T>& J) {
-  Eigen::Matrix<T, 3, 3> matrix;
-  matrix << J.xx, J.xy, J.xz, J.xy, J.yy, J.yz, J.xz, J.yz, J.zz;
-  return matrix;
 }
 
 /// Σ a_i h_i [N m s]

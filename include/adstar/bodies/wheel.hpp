@@ -18,9 +18,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "adstar/state.hpp"
-#include "adstar/torques/frame.hpp"
+#include "adstar/torques/intervals.hpp"
 #include "adstar/vec3.hpp"
 
 namespace adstar {
@@ -62,25 +63,15 @@ struct Motor {
   std::size_t intervals = 0;
 
   MotorOrder<T> order_at(std::int64_t t_ns) const {
-    for (std::size_t i = 0; i < intervals; ++i) {
-      if (window[i].start_ns <= t_ns && t_ns < window[i].end_ns) {
-        return window[i].order;
-      }
-    }
-    return standing;
+    const MotorInterval<T>* const interval = in_force(all(), t_ns);
+    return interval == nullptr ? standing : interval->order;
+  }
+  std::int64_t next_edge_after(std::int64_t t_ns) const {
+    return adstar::next_edge_after(all(), t_ns);
   }
 
-  std::int64_t next_edge_after(std::int64_t t_ns) const {
-    std::int64_t next = kNever;
-    for (std::size_t i = 0; i < intervals; ++i) {
-      for (const std::int64_t edge : {window[i].start_ns, window[i].end_ns}) {
-        if (edge > t_ns && edge < next) {
-          next = edge;
-        }
-      }
-    }
-    return next;
-  }
+ private:
+  std::span<const MotorInterval<T>> all() const { return {window.data(), intervals}; }
 };
 
 /// Of max_speed: where the motor's torque begins to fade.

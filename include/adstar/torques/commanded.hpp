@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "adstar/torques/frame.hpp"
+#include "adstar/torques/intervals.hpp"
 
 namespace adstar {
 
@@ -28,26 +30,15 @@ struct Commanded {
   std::size_t intervals = 0;
 
   Ramp<T> ramp_from(std::int64_t t_ns) const {
-    for (std::size_t i = 0; i < intervals; ++i) {
-      if (window[i].start_ns <= t_ns && t_ns < window[i].end_ns) {
-        return {window[i].torque_n_m, {}};
-      }
-    }
-    return {};
+    const TorqueInterval<T>* const interval = in_force(all(), t_ns);
+    return interval == nullptr ? Ramp<T>{} : Ramp<T>{interval->torque_n_m, {}};
+  }
+  std::int64_t next_edge_after(std::int64_t t_ns) const {
+    return adstar::next_edge_after(all(), t_ns);
   }
 
-  std::int64_t next_edge_after(std::int64_t t_ns) const {
-    std::int64_t next = kNever;
-    for (std::size_t i = 0; i < intervals; ++i) {
-      if (window[i].start_ns > t_ns && window[i].start_ns < next) {
-        next = window[i].start_ns;
-      }
-      if (window[i].end_ns > t_ns && window[i].end_ns < next) {
-        next = window[i].end_ns;
-      }
-    }
-    return next;
-  }
+ private:
+  std::span<const TorqueInterval<T>> all() const { return {window.data(), intervals}; }
 };
 
 }  // namespace adstar
