@@ -13,6 +13,7 @@
 #include "service/run/flight.hpp"
 #include "service/run/hot_journal_file.hpp"
 #include "service/run/resume.hpp"
+#include "service/runtime/step_digests.hpp"
 
 namespace adstar::run {
 namespace {
@@ -42,6 +43,18 @@ std::map<Instant, Checkpoint> whole_checkpoints(const RunDirectory& directory,
     }
   }
   return whole;
+}
+
+std::map<Instant, std::uint64_t> digests_in(const std::vector<runtime::JournalRecord>& records) {
+  std::map<Instant, std::uint64_t> digests;
+  for (const runtime::JournalRecord& record : records) {
+    const auto block = runtime::payload_of<runtime::DigestBlock>(record);
+    const auto count = std::min<std::uint64_t>(block.count, runtime::DigestBlock::kMost);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      digests[{record.note, record.step + i}] = block.digests[i];
+    }
+  }
+  return digests;
 }
 
 /// What a checkpoint holds that the flight does not; empty: nothing.
@@ -95,8 +108,12 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
   for (const runtime::JournalRecord& record : records.hashes) {
     hashes[{record.note, record.step}] = record.payload[0];
   }
+  const std::map<Instant, std::uint64_t> digests = digests_in(records.digests);
   std::set<Instant> stops;
   for (const auto& [at, hash] : hashes) {
+    stops.insert(at);
+  }
+  for (const auto& [at, digest] : digests) {
     stops.insert(at);
   }
   for (const auto& [at, checkpoint] : checkpoints) {
@@ -114,10 +131,15 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
     if (flight.at != stop) {
       break;  // beyond a gap
     }
-    const runtime::FleetState state = runtime::state_of(fleet);
+    if (const auto digest = digests.find(stop); digest != digests.end()) {
+      ++result.hashes;
+      if (digest->second != runtime::digest_of(fleet.vehicles())) {
+        result.differs_at = stop;
+      }
+    }
     if (const auto hash = hashes.find(stop); hash != hashes.end()) {
       ++result.hashes;
-      if (hash->second != state_hash(stop.step, state)) {
+      if (hash->second != state_hash(stop.step, runtime::state_of(fleet))) {
         result.differs_at = stop;
       }
     }
@@ -132,7 +154,8 @@ Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::ui
       left = left.subspan(heard);
       result.heard += heard;
       verdicts->skip_all();
-      if (const std::string what = difference(checkpoint->second, state, gate, scene);
+      if (const std::string what =
+              difference(checkpoint->second, runtime::state_of(fleet), gate, scene);
           !what.empty()) {
         result.differs_at = stop;
         result.differs_in = what;

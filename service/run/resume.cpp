@@ -16,8 +16,8 @@ using runtime::JournalRecord;
 
 /// Into its place, or, when one before it is missing, nowhere.
 void add(RunRecords& all, const JournalRecord& record) {
-  if (record.kind == JournalKind::state_hash) {
-    all.hashes.push_back(record);
+  if (!is_heard(record.kind)) {
+    (record.kind == JournalKind::state_hash ? all.hashes : all.digests).push_back(record);
     return;
   }
   all.highest = std::max(all.highest, record.number);
@@ -91,7 +91,7 @@ RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal
       continue;
     }
     for (const JournalRecord& record : text.records) {
-      if (record.kind != JournalKind::state_hash) {
+      if (is_heard(record.kind)) {
         all.last_in_files = std::max(all.last_in_files, record.number);
       }
       add(all, record);

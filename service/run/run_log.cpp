@@ -37,15 +37,16 @@ bool RunLog::move_records() {
   const std::size_t count = hot_.ring.size();
   std::vector<JournalRecord> records;
   for (std::size_t i = 0; i < count; ++i) {
-    if (hot_.ring.peek(i).number > last_in_files_) {
-      records.push_back(hot_.ring.peek(i));
+    const JournalRecord& record = hot_.ring.peek(i);
+    if (!is_heard(record.kind) || record.number > last_in_files_) {
+      records.push_back(record);
     }
   }
   journal_.append(records);
   hot_.ring.release(count);
   for (const JournalRecord& record : records) {
-    last_in_files_ = record.number;
-    if (record.number >= next_number_) {
+    last_in_files_ = std::max(last_in_files_, record.number);
+    if (is_heard(record.kind) && record.number >= next_number_) {
       unheard_.push_back(record);
     }
   }

@@ -21,12 +21,19 @@ enum class JournalKind : std::uint32_t {
   command,     ///< payload: CommandRecord
   control,     ///< payload: ControlRecord that was tried; note: its ControlRefusal
   state_hash,  ///< payload: one word, the hash of the fleet's state at `step`; note: resets before
+  step_digests,  ///< payload: DigestBlock, of the states from `step` on; note: resets before
 };
+
+/// What happened, which a run must hear to be flown again; the others only say how it was.
+inline bool is_heard(JournalKind kind) noexcept {
+  return kind == JournalKind::command || kind == JournalKind::control;
+}
 
 struct JournalRecord {
   static constexpr std::size_t kPayloadWords = 20;
-  std::uint64_t number = 0;  ///< rises by one from record to record; a state hash repeats the last
-  std::uint64_t step = 0;    ///< of the beat that took it
+  std::uint64_t number =
+      0;  ///< rises by one from record to record; what is not heard repeats the last
+  std::uint64_t step = 0;  ///< of the beat that took it
   JournalKind kind = JournalKind::command;
   std::uint32_t note = 0;
   std::array<std::uint64_t, kPayloadWords> payload{};
@@ -79,6 +86,15 @@ class JournalWriter {
              const Payload& payload) noexcept {
     if (hot_.ring.push(make_journal_record(kind, next_number_, step, note, payload))) {
       ++next_number_;
+    }
+  }
+
+  /// What a run can do without, into the half of the ring that commands can spare.
+  template <class Payload>
+  void write_beside(JournalKind kind, std::uint64_t step, std::uint32_t note,
+                    const Payload& payload) noexcept {
+    if (hot_.ring.size() < HotJournal::Ring::kCapacity / 2) {
+      hot_.ring.push(make_journal_record(kind, next_number_ - 1, step, note, payload));
     }
   }
 

@@ -42,6 +42,7 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
       held_(scene.standby ? 2 * kMostHeld : 0),
       snapshot_every_(snapshot_every(step_ns_)),
       snapshot_(fleet_),
+      digests_every_step_(scene.run.hashes_every_step),
       fleet_words_(fleet_words(segment.fleet_size())) {
   if (obeys_run_control_) {
     fleet_.keep_start();
@@ -87,6 +88,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
     account(times, by_clock ? period_ns : 0);
     ended = times.handed_over;
   }
+  digests_.flush();
   step_requests_.interrupt(face());
 }
 
@@ -182,8 +184,10 @@ void Tick::reached(std::uint64_t step) noexcept {
   if (journal_ != nullptr) {
     journal_->reached(step);
   }
+  const Instant at{report_.run.load(std::memory_order_relaxed), step};
+  digests_.add(fleet_.vehicles(), at);
   if (step % snapshot_every_ == 0) {
-    snapshot_.offer(fleet_.vehicles(), {report_.run.load(std::memory_order_relaxed), step});
+    snapshot_.offer(fleet_.vehicles(), at);
   }
 }
 

@@ -19,6 +19,7 @@
 #include "service/runtime/histogram.hpp"
 #include "service/runtime/run_control.hpp"
 #include "service/runtime/shared_segment.hpp"
+#include "service/runtime/step_digests.hpp"
 #include "service/runtime/step_requests.hpp"
 #include "service/scene/scene.hpp"
 
@@ -71,6 +72,7 @@ class Tick {
     journal_ = journal;
     next_number_ = journal == nullptr ? 1 : journal->next_number();
     gate_.record_in(lead_ == 0 ? journal : nullptr);  // what is held is written when it comes
+    digests_.write_to(digests_every_step_ ? journal : nullptr);
   }
 
   /// Before run(): compute what a primary has computed, and say nothing, until it is gone.
@@ -187,6 +189,8 @@ class Tick {
   std::uint64_t next_number_ = 1;  ///< of the journal record that comes next, where there is a lead
   std::uint64_t snapshot_every_;   ///< steps: about a second of simulation time
   FleetSnapshot snapshot_;
+  bool digests_every_step_;
+  StepDigests digests_;
   std::vector<std::uint64_t> fleet_words_;
   bool late_by_work_ = false;  ///< what made the beats since the last sleep late
   TickReport report_;

@@ -17,6 +17,8 @@ Run read_run(Keys& root) {
       read_duration(keys.optional("checkpoint_every"), "10s").value_or(run.checkpoint_every_ns);
   constexpr std::array<std::string_view, 2> kHistories{"recent", "whole"};
   run.whole_history = read_choice(keys.optional("history"), kHistories).value_or(0) == 1;
+  constexpr std::array<std::string_view, 2> kHashes{"second", "step"};
+  run.hashes_every_step = read_choice(keys.optional("hashes"), kHashes).value_or(0) == 1;
   keys.refuse_unknown();
   return run;
 }

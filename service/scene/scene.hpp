@@ -110,6 +110,8 @@ struct Run {
   std::int64_t checkpoint_every_ns = 10'000'000'000;  ///< simulation time
   bool whole_history =
       false;  ///< keep all of the journal, not only what the newest checkpoints need
+  bool hashes_every_step =
+      false;  ///< not only once a second: `adstar replay` names the first that differs
 };
 
 /// A second daemon that goes on when this one is gone.

@@ -12,6 +12,7 @@
 #include "service/run/run_directory.hpp"
 #include "service/run/run_log.hpp"
 #include "service/runtime/fleet_snapshot.hpp"
+#include "service/runtime/step_digests.hpp"
 #include "tests/support/gate_harness.hpp"
 #include "tests/support/random_motion.hpp"
 
@@ -129,6 +130,7 @@ class RecordedFlight {
     ++at_.step;
     if (writer_) {
       writer_->reached(at_.step);
+      digests_.add(fleet_.vehicles(), at_);
     }
   }
   void beat() {
@@ -141,6 +143,10 @@ class RecordedFlight {
       beat();
     }
   }
+
+  /// From now on every step leaves a digest in the journal.
+  void digest_every_step() { digests_.write_to(&*writer_); }
+  void end_digests() { digests_.flush(); }
 
   void checkpoint(bool keep_all_journals = false) {
     log_->move_records();
@@ -183,6 +189,7 @@ class RecordedFlight {
   std::optional<run::RunDirectory> directory_;
   std::optional<run::HotJournalFile> hot_;
   std::optional<runtime::JournalWriter> writer_;
+  runtime::StepDigests digests_;
   std::unique_ptr<run::RunLog> log_;
 };
 

@@ -115,6 +115,52 @@ TEST_F(KilledRun, flown_again_with_another_body_says_where_it_parts) {
   EXPECT_EQ(again.differs_at->step, 50U);
 }
 
+TEST_F(KilledRun, flown_again_names_the_first_step_that_differs_where_every_step_left_a_digest) {
+  {
+    RecordedFlight flight(8, path_, run_);
+    flight.digest_every_step();
+    for (std::uint64_t step = 50; step <= 200; step += 50) {
+      flight.run_to(step);
+      flight.checkpoint(true);
+    }
+    flight.end_digests();
+  }
+  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+  const auto on = [](double) { return true; };
+  const Reflight same = refly(directory, test::recorded_scene(), 7, on);
+  EXPECT_FALSE(same.differs_at) << same.differs_at->step << same.differs_in;
+  EXPECT_EQ(same.to.step, 200U);
+  EXPECT_GE(same.hashes, 190U);
+
+  scene::Scene other = test::recorded_scene();
+  other.spacecraft[0].torques.push_back(Table<double>{
+      Frame::body, Interpolation::hold, AfterEnd::hold, {123 * 10 * test::kMs}, {{1e-9, 0, 0}}});
+  const Reflight again = refly(directory, other, 7, on);
+  ASSERT_TRUE(again.differs_at);
+  EXPECT_EQ(again.same_until.step, 123U);
+  EXPECT_EQ(again.differs_at->step, 124U);
+}
+
+TEST_F(KilledRun, killed_and_gone_on_with_the_digests_of_both_parts_are_compared) {
+  {
+    RecordedFlight flight(8, path_, run_);
+    flight.digest_every_step();
+    flight.run_to(77);  // moved to no file: they are found in memory
+  }
+  {
+    RecordedFlight flight(8, path_);
+    flight.digest_every_step();
+    flight.run_to(150);
+    flight.end_digests();
+    flight.checkpoint(true);
+  }
+  const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+  const Reflight again = refly(directory, test::recorded_scene(), 7, [](double) { return true; });
+  EXPECT_FALSE(again.differs_at) << again.differs_at->step << again.differs_in;
+  EXPECT_EQ(again.hashes,
+            76U + 73U + 1U);  // a block's 19 four times; the killed one's last is lost
+}
+
 TEST_F(KilledRun, flown_again_over_a_checkpoint_that_was_written_within_a_beat) {
   std::optional<RecordedFlight> flight(std::in_place, 8, path_, run_);
   std::uint64_t step = 50;
