@@ -10,6 +10,7 @@ packages=(
   cyclonedds-dev cyclonedds-tools          # DDS (C API) and idlc
   openssl                                  # keys and certificates of deploy/security
   libspdlog-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libxxhash-dev
+  liberfa-dev                              # dates, and how the Earth stands
   libxsimd-dev                             # fleets: several bodies a register
 )
 if [[ "${1:-}" == "--tests" ]]; then

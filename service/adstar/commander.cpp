@@ -31,6 +31,7 @@ Answer answer_of(const adstar_CommandStatus& status) {
                               static_cast<unsigned>(status.reason)));
   }
   const adstar_Vector3& torque = status.torque_applied_n_m;
+  const adstar_Vector3& dipole = status.dipole_applied_a_m2;
   return {*verdict,
           *reason,
           std::string(dds::text_of(status.service)),
@@ -39,7 +40,8 @@ Answer answer_of(const adstar_CommandStatus& status) {
           status.effective_start_time_ns,
           status.effective_end_time_ns,
           {torque.x, torque.y, torque.z},
-          status.speed_applied_rad_s};
+          status.speed_applied_rad_s,
+          {dipole.x, dipole.y, dipole.z}};
 }
 
 }  // namespace
@@ -74,6 +76,12 @@ std::uint64_t Commander::give(const Order& order) {
     case Ordered::wheel_speed:
       make(wheel_speeds_);
       break;
+    case Ordered::dipole:
+      make(dipoles_);
+      break;
+    case Ordered::thrust:
+      make(thrusters_);
+      break;
   }
   dispatch.heard = dispatch.next_send = Clock::now();
   dispatches_.emplace(sequence, std::move(dispatch));
@@ -86,6 +94,10 @@ Command Commander::header_of(std::uint64_t sequence, const Order& order) const {
   dds::set_text(command.spacecraft, target_.spacecraft);
   if constexpr (requires { command.wheel; }) {
     dds::set_text(command.wheel, target_.actuator);
+  } else if constexpr (requires { command.magnetorquer; }) {
+    dds::set_text(command.magnetorquer, target_.actuator);
+  } else if constexpr (requires { command.thruster; }) {
+    dds::set_text(command.thruster, target_.actuator);
   } else {
     dds::set_text(command.actuator, target_.actuator);
   }
@@ -119,12 +131,22 @@ void Commander::send(std::uint64_t sequence, const Order& order) {
       wheel_speeds_->write(command);
       break;
     }
+    case Ordered::dipole: {
+      auto command = header_of<adstar_DipoleCommand>(sequence, order);
+      command.dipole_body_a_m2 = {order.dipole_a_m2[0], order.dipole_a_m2[1], order.dipole_a_m2[2]};
+      dipoles_->write(command);
+      break;
+    }
+    case Ordered::thrust:
+      thrusters_->write(header_of<adstar_ThrusterCommand>(sequence, order));
+      break;
   }
 }
 
 bool Commander::heard_by_anyone() const {
   const auto heard = [](const auto& writer) { return writer && writer->matched() > 0; };
-  return heard(torques_) || heard(wheel_torques_) || heard(wheel_speeds_);
+  return heard(torques_) || heard(wheel_torques_) || heard(wheel_speeds_) || heard(dipoles_) ||
+         heard(thrusters_);
 }
 
 void Commander::work(std::chrono::milliseconds patience) {

@@ -17,16 +17,17 @@
 
 namespace adstar::cli {
 
-enum class Ordered { torque, wheel_torque, wheel_speed };
+enum class Ordered { torque, wheel_torque, wheel_speed, dipole, thrust };
 
 struct Order {
   Ordered what = Ordered::torque;
   std::int32_t priority = 0;
   std::int64_t start_ns = runtime::kStartAtNextBeat;
-  std::int64_t end_ns = 0;             ///< exclusive; 0 with a duration
-  std::int64_t duration_ns = 0;        ///< 0 with an end
-  std::array<double, 3> torque_n_m{};  ///< of a wheel: x
-  double speed_rad_s = 0;              ///< of a wheel
+  std::int64_t end_ns = 0;              ///< exclusive; 0 with a duration
+  std::int64_t duration_ns = 0;         ///< 0 with an end
+  std::array<double, 3> torque_n_m{};   ///< of a wheel: x
+  double speed_rad_s = 0;               ///< of a wheel
+  std::array<double, 3> dipole_a_m2{};  ///< of a magnetorquer, in B
 };
 
 struct Answer {
@@ -39,6 +40,7 @@ struct Answer {
   std::int64_t end_ns = 0;
   std::array<double, 3> torque_n_m{};
   double speed_rad_s = 0;
+  std::array<double, 3> dipole_a_m2{};
   bool forgotten = false;  ///< it was accepted once, and the service has forgotten how it ended
 
   bool is_final() const;
@@ -50,7 +52,7 @@ class Commander {
 
   struct Target {
     std::string spacecraft;
-    std::string actuator;  ///< or the wheel
+    std::string actuator;  ///< of whatever kind
     std::string service;   ///< hear this one only; empty: any
   };
 
@@ -105,6 +107,8 @@ class Commander {
       torques_;  ///< each made for the first order of its kind
   std::optional<dds::Writer<adstar_WheelTorqueCommand>> wheel_torques_;
   std::optional<dds::Writer<adstar_WheelSpeedCommand>> wheel_speeds_;
+  std::optional<dds::Writer<adstar_DipoleCommand>> dipoles_;
+  std::optional<dds::Writer<adstar_ThrusterCommand>> thrusters_;
   dds::Reader<adstar_CommandStatus> reader_;
   dds::WaitSet wait_set_;
 };

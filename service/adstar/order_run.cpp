@@ -78,6 +78,23 @@ ExitCode run_order(Commander& commander, const Order& order, const OrderOptions&
   }
 }
 
+ExitCode send_order(const char* verb, const Order& order, const OrderOptions& options) {
+  log_to_stderr(verb);
+  catch_stop_signals();
+  const dds::Participant participant(options.place);
+  Commander commander(participant, options.target);
+  return answered(run_order(commander, order, options), commander, options);
+}
+
+std::string order_footer(const char* example) {
+  return fmt::format(
+      "Times are simulation time since the scene's start.\n"
+      "Exit code: 0 done, 3 refused, expired, outranked or superseded, 4 no answer.\n"
+      "Example:\n"
+      "  {}",
+      example);
+}
+
 ExitCode answered(ExitCode code, const Commander& commander, const OrderOptions& options) {
   if (code == kNoAnswer) {
     throw Failure(kNoAnswer, no_answer_sentence(commander.heard_by_anyone(), options.timeout(),

@@ -33,6 +33,12 @@ void require_an_end(const OrderOptions& options);
 /// where none comes the clock stands, and it begins with the next step.
 ExitCode run_order(Commander& commander, const Order& order, const OrderOptions& options);
 
+/// The whole of a verb that gives one order: joins the bus under that name, gives it, prints its verdict.
+ExitCode send_order(const char* verb, const Order& order, const OrderOptions& options);
+
+/// What such a verb's help ends with.
+std::string order_footer(const char* example);
+
 /// Throws Failure that says where nobody answered, for kNoAnswer; else gives the code back.
 ExitCode answered(ExitCode code, const Commander& commander, const OrderOptions& options);
 

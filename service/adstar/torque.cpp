@@ -38,19 +38,19 @@ int torque(const Options& options) {
   if (!options.profile.empty()) {
     rows = read_profile(options.profile);
   }
-  log_to_stderr("torque");
-  catch_stop_signals();
   const OrderOptions& common = options.common;
-  const dds::Participant participant(common.place);
-  Commander commander(participant, common.target);
   if (!rows.empty()) {
+    log_to_stderr("torque");
+    catch_stop_signals();
+    const dds::Participant participant(common.place);
+    Commander commander(participant, common.target);
     ProfileRun run(commander, std::move(rows),
                    {common.at_ns, common.priority, common.wait, common.timeout()});
     return answered(run.run(), commander, common);
   }
   Order order = common.order();
   order.torque_n_m = {options.torque_n_m[0], options.torque_n_m[1], options.torque_n_m[2]};
-  return answered(run_order(commander, order, common), commander, common);
+  return send_order("torque", order, common);
 }
 
 }  // namespace
@@ -71,11 +71,7 @@ Verb add_torque(CLI::App& program) {
   add_name(*verb, "--actuator", options->common.target.actuator, "Which actuator of the spacecraft")
       ->capture_default_str();
   add_order_options(*verb, options->common);
-  verb->footer(
-      "Times are simulation time since the scene's start.\n"
-      "Exit code: 0 done, 3 refused, expired, outranked or superseded, 4 no answer.\n"
-      "Example:\n"
-      "  adstar torque sat1 --torque-n-m 0 0 0.05 --for 5s");
+  verb->footer(order_footer("adstar torque sat1 --torque-n-m 0 0 0.05 --for 5s"));
   return {verb, [options] { return torque(*options); }};
 }
 

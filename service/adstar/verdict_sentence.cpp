@@ -12,29 +12,47 @@ namespace {
 
 using runtime::Verdict;
 
-/// The number or numbers of an order or an answer.
-template <class Given>
-std::string value_of(const Given& given, Ordered what) {
-  const auto& v = given.torque_n_m;
-  switch (what) {
-    case Ordered::torque:
-      break;
-    case Ordered::wheel_torque:
-      return fmt::format("{}", v[0]);
-    case Ordered::wheel_speed:
-      return fmt::format("{}", given.speed_rad_s);
-  }
+std::string vector_text(const std::array<double, 3>& v) {
   return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
 }
 
+/// What an order or an answer gives, with its unit.
+template <class Given>
+std::string value_of(const Given& given, Ordered what) {
+  switch (what) {
+    case Ordered::torque:
+      return vector_text(given.torque_n_m) + " N m";
+    case Ordered::wheel_torque:
+      return fmt::format("{} N m", given.torque_n_m[0]);
+    case Ordered::wheel_speed:
+      return fmt::format("{} rad/s", given.speed_rad_s);
+    case Ordered::dipole:
+      return vector_text(given.dipole_a_m2) + " A m^2";
+    case Ordered::thrust:
+      break;
+  }
+  return {};
+}
+
+const char* name_of(Ordered what) {
+  switch (what) {
+    case Ordered::torque:
+      return "torque ";
+    case Ordered::wheel_torque:
+      return "motor torque ";
+    case Ordered::wheel_speed:
+      return "speed ";
+    case Ordered::dipole:
+      return "dipole ";
+    case Ordered::thrust:
+      return "on";
+  }
+  return "";
+}
+
 std::string in_force(const Answer& answer, Ordered what) {
-  const bool speed = what == Ordered::wheel_speed;
-  return fmt::format("from {} s to {} s, {} {} {}", report::seconds_text(answer.start_ns),
-                     report::seconds_text(answer.end_ns),
-                     speed                           ? "speed"
-                     : what == Ordered::wheel_torque ? "motor torque"
-                                                     : "torque",
-                     value_of(answer, what), speed ? "rad/s" : "N m");
+  return fmt::format("from {} s to {} s, {}{}", report::seconds_text(answer.start_ns),
+                     report::seconds_text(answer.end_ns), name_of(what), value_of(answer, what));
 }
 
 std::string decided(const Answer& answer) {

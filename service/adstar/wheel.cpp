@@ -4,7 +4,6 @@
 
 #include "service/adstar/dds_options.hpp"
 #include "service/adstar/order_run.hpp"
-#include "service/adstar/stop_signal.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
 
@@ -22,15 +21,11 @@ int wheel(const Options& options) {
                   "expected one of --torque-n-m and --speed-rad-s; try --torque-n-m 0.01 --for 5s");
   }
   require_an_end(options.common);
-  log_to_stderr("wheel");
-  catch_stop_signals();
-  const dds::Participant participant(options.common.place);
-  Commander commander(participant, options.common.target);
   Order order = options.common.order();
   order.what = options.speed_rad_s ? Ordered::wheel_speed : Ordered::wheel_torque;
   order.torque_n_m = {options.torque_n_m.value_or(0), 0, 0};
   order.speed_rad_s = options.speed_rad_s.value_or(0);
-  return answered(run_order(commander, order, options.common), commander, options.common);
+  return send_order("wheel", order, options.common);
 }
 
 }  // namespace
@@ -49,11 +44,7 @@ Verb add_wheel(CLI::App& program) {
   add_name(*verb, "wheel", options->common.target.actuator, "Which of its wheels")
       ->type_name("WHEEL")
       ->required();
-  verb->footer(
-      "Times are simulation time since the scene's start.\n"
-      "Exit code: 0 done, 3 refused, expired, outranked or superseded, 4 no answer.\n"
-      "Example:\n"
-      "  adstar wheel sat1 wheel1 --torque-n-m 0.01 --for 5s");
+  verb->footer(order_footer("adstar wheel sat1 wheel1 --torque-n-m 0.01 --for 5s"));
   return {verb, [options] { return wheel(*options); }};
 }
 

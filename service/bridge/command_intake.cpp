@@ -13,12 +13,22 @@ namespace {
 std::string_view actuator_of(const adstar_TorqueCommand& command) {
   return dds::text_of(command.actuator);
 }
+std::string_view actuator_of(const adstar_DipoleCommand& command) {
+  return dds::text_of(command.magnetorquer);
+}
+std::string_view actuator_of(const adstar_ThrusterCommand& command) {
+  return dds::text_of(command.thruster);
+}
 std::string_view actuator_of(const auto& command) { return dds::text_of(command.wheel); }
 
 template <class Command>
-constexpr Directory::Kind kKind =
-    std::is_same_v<Command, adstar_TorqueCommand> ? Directory::Kind::torque
-                                                  : Directory::Kind::wheel;
+constexpr scene::ActuatorKind kKind = scene::ActuatorKind::wheel;
+template <>
+constexpr scene::ActuatorKind kKind<adstar_TorqueCommand> = scene::ActuatorKind::torque;
+template <>
+constexpr scene::ActuatorKind kKind<adstar_DipoleCommand> = scene::ActuatorKind::magnetorquer;
+template <>
+constexpr scene::ActuatorKind kKind<adstar_ThrusterCommand> = scene::ActuatorKind::thruster;
 
 }  // namespace
 
@@ -33,11 +43,15 @@ CommandIntake::CommandIntake(const dds::Participant& participant, runtime::Share
       torques_(participant),
       wheel_torques_(participant),
       wheel_speeds_(participant),
+      dipoles_(participant),
+      thrusters_(participant),
       requests_(participant, segment, directory, service_),
       wait_set_(participant) {
   wait_set_.attach(torques_);
   wait_set_.attach(wheel_torques_);
   wait_set_.attach(wheel_speeds_);
+  wait_set_.attach(dipoles_);
+  wait_set_.attach(thrusters_);
   requests_.attach_to(wait_set_);
   thread_ = std::thread([this] { listen(); });
 }
@@ -76,9 +90,12 @@ void CommandIntake::listen() noexcept {
 
 /// False when there was none.
 bool CommandIntake::take_commands() {
-  const std::size_t torques = take_from(torques_);
-  const std::size_t wheel_torques = take_from(wheel_torques_);
-  return take_from(wheel_speeds_) + wheel_torques + torques > 0;
+  std::size_t taken = take_from(torques_);
+  taken += take_from(wheel_torques_);
+  taken += take_from(wheel_speeds_);
+  taken += take_from(dipoles_);
+  taken += take_from(thrusters_);
+  return taken > 0;
 }
 
 template <class Command>

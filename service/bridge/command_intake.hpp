@@ -1,5 +1,5 @@
 #pragma once
-// Commands of torques and wheels become CommandRecords in the ring. Only names are looked at here: adstard
+// Commands of all actuators become CommandRecords in the ring. Only names are looked at here: adstard
 // judges the rest. The requests to the clock are taken on the same thread.
 
 #include <atomic>
@@ -54,6 +54,8 @@ class CommandIntake {
   dds::Reader<adstar_TorqueCommand> torques_;
   dds::Reader<adstar_WheelTorqueCommand> wheel_torques_;
   dds::Reader<adstar_WheelSpeedCommand> wheel_speeds_;
+  dds::Reader<adstar_DipoleCommand> dipoles_;
+  dds::Reader<adstar_ThrusterCommand> thrusters_;
   RequestIntake requests_;
   dds::WaitSet wait_set_;
   std::atomic<std::uint64_t> handed_over_{0};

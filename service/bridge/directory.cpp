@@ -14,11 +14,11 @@ std::optional<std::uint32_t> Directory::spacecraft(std::string_view name) const 
   return found == by_name_.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::optional<std::uint32_t> Directory::actuator(std::uint32_t spacecraft, Kind kind,
+std::optional<std::uint32_t> Directory::actuator(std::uint32_t spacecraft, scene::ActuatorKind kind,
                                                  std::string_view name) const {
   const auto& actuators = scene_->spacecraft.at(spacecraft).actuators;
   for (std::uint32_t i = 0; i < actuators.size(); ++i) {
-    if (actuators[i].name == name && actuators[i].wheel.has_value() == (kind == Kind::wheel)) {
+    if (actuators[i].name == name && actuators[i].kind == kind) {
       return i;
     }
   }

@@ -17,9 +17,8 @@ class Directory {
   explicit Directory(const scene::Scene& scene);
 
   std::optional<std::uint32_t> spacecraft(std::string_view name) const;
-  enum class Kind { torque, wheel };
   /// The commanded one of that kind and name.
-  std::optional<std::uint32_t> actuator(std::uint32_t spacecraft, Kind kind,
+  std::optional<std::uint32_t> actuator(std::uint32_t spacecraft, scene::ActuatorKind kind,
                                         std::string_view name) const;
 
   std::size_t size() const noexcept { return scene_->spacecraft.size(); }

@@ -60,6 +60,7 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
       attitude_(participant),
       momentum_(participant),
       wheels_(participant),
+      pointing_(participant),
       fleet_(participant),
       status_(participant),
       timing_(participant),
@@ -73,7 +74,11 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
     if (scene.telemetry.momentum_every > 0) {
       momentum_.register_instance(dds::to_momentum({}, name, service_));
     }
-    for (const scene::NamedWheel& wheel : scene.spacecraft[index].wheels) {
+    const scene::Spacecraft& craft = scene.spacecraft[index];
+    if (scene.telemetry.pointing_every > 0 && (craft.orbit || craft.target)) {
+      pointing_.register_instance(dds::to_sample(runtime::PointingRecord{}, name, service_));
+    }
+    for (const scene::NamedWheel& wheel : craft.wheels) {
       if (scene.telemetry.wheel_every > 0) {
         wheels_.register_instance(
             dds::to_sample(runtime::WheelRecord{}, name, wheel.name, service_));
@@ -88,7 +93,8 @@ Publisher::Left Publisher::publish_some() {
   const bool verdicts = publish_verdicts();
   publish_control_answers();
   const bool wheels = publish_wheels();
-  const bool telemetry = publish_telemetry() || wheels;
+  const bool pointing = publish_pointing();
+  const bool telemetry = publish_telemetry() || wheels || pointing;
   const bool fleet = publish_fleet();
   if (!verdicts && !telemetry) {
     publish_step_replies(replies);
@@ -182,6 +188,19 @@ bool Publisher::publish_wheels() {
   return true;
 }
 
+bool Publisher::publish_pointing() {
+  for (int i = 0; i < kBatch; ++i) {
+    const auto record = segment_->pointing.pop();
+    if (!record) {
+      return false;
+    }
+    count_unsent(pointing_.write(
+        dds::to_sample(*record, directory_.spacecraft_name(record->spacecraft), service_)));
+    ++counts_.telemetry;
+  }
+  return true;
+}
+
 bool Publisher::publish_fleet() {
   const std::size_t chunks = chunks_of(segment_.fleet_size());
   if (next_chunk_ == chunks) {
@@ -243,6 +262,7 @@ bool Publisher::wait_for_readers(std::chrono::milliseconds timeout) {
   bool all = attitude_.wait_for_acks(left());
   all = momentum_.wait_for_acks(left()) && all;
   all = wheels_.wait_for_acks(left()) && all;
+  all = pointing_.wait_for_acks(left()) && all;
   all = fleet_.wait_for_acks(left()) && all;
   all = status_.wait_for_acks(left()) && all;
   all = timing_.wait_for_acks(left()) && all;

@@ -55,6 +55,7 @@ class Publisher {
   bool publish_verdicts();
   bool publish_telemetry();
   bool publish_wheels();
+  bool publish_pointing();
   bool publish_fleet();
   void publish_step_replies(std::size_t count);
   void publish_control_answers();
@@ -68,6 +69,7 @@ class Publisher {
   dds::Writer<adstar_AttitudeState> attitude_;
   dds::Writer<adstar_MomentumState> momentum_;
   dds::Writer<adstar_WheelState> wheels_;
+  dds::Writer<adstar_PointingState> pointing_;
   dds::Writer<adstar_FleetState> fleet_;
   dds::Writer<adstar_ServiceStatus> status_;
   dds::Writer<adstar_StepTiming> timing_;

@@ -70,6 +70,8 @@ static_assert(runtime::kFlagFinal == adstar_FLAG_FINAL);
 static_assert(runtime::kFlagUnresolvedDamping == adstar_FLAG_UNRESOLVED_DAMPING);
 static_assert(runtime::kWheelTorqueLimited == adstar_WHEEL_TORQUE_LIMITED);
 static_assert(runtime::kWheelSpeedLimited == adstar_WHEEL_SPEED_LIMITED);
+static_assert(runtime::kPointingOrbit == adstar_POINTING_ORBIT);
+static_assert(runtime::kPointingTarget == adstar_POINTING_TARGET);
 static_assert(runtime::kFlagLightAxis == adstar_FLAG_LIGHT_AXIS);
 static_assert(runtime::kFlagSeparatrix == adstar_FLAG_SEPARATRIX);
 static_assert(runtime::kFlagAttitudeLost == adstar_FLAG_ATTITUDE_LOST);
@@ -138,22 +140,39 @@ runtime::CommandRecord header_of(const Command& sample, std::uint32_t spacecraft
 runtime::CommandRecord to_record(const adstar_TorqueCommand& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept {
   runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
-  record.torque_n_m = {sample.torque_n_m.x, sample.torque_n_m.y, sample.torque_n_m.z};
+  record.value = {sample.torque_n_m.x, sample.torque_n_m.y, sample.torque_n_m.z};
   return record;
 }
 
 runtime::CommandRecord to_record(const adstar_WheelTorqueCommand& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept {
   runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
-  record.torque_n_m = {sample.motor_torque_n_m, 0, 0};
+  record.value = {sample.motor_torque_n_m, 0, 0};
   return record;
 }
 
 runtime::CommandRecord to_record(const adstar_WheelSpeedCommand& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept {
   runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
-  record.of_speed = 1;
-  record.torque_n_m = {sample.speed_rad_s, 0, 0};
+  record.quantity = runtime::Quantity::wheel_speed;
+  record.value = {sample.speed_rad_s, 0, 0};
+  return record;
+}
+
+runtime::CommandRecord to_record(const adstar_DipoleCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept {
+  const adstar_Vector3& m = sample.dipole_body_a_m2;
+  runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
+  record.quantity = runtime::Quantity::dipole;
+  record.value = {m.x, m.y, m.z};
+  return record;
+}
+
+runtime::CommandRecord to_record(const adstar_ThrusterCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept {
+  runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
+  record.quantity = runtime::Quantity::thrust;
+  record.value = {1, 0, 0};
   return record;
 }
 
@@ -172,10 +191,18 @@ adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string
   sample.priority = record.priority;
   sample.effective_start_time_ns = record.start_ns;
   sample.effective_end_time_ns = record.end_ns;
-  if (record.of_speed != 0) {
-    sample.speed_applied_rad_s = record.torque_n_m[0];
-  } else {
-    sample.torque_applied_n_m = vector(record.torque_n_m);
+  switch (record.quantity) {
+    case runtime::Quantity::torque:
+      sample.torque_applied_n_m = vector(record.value);
+      break;
+    case runtime::Quantity::wheel_speed:
+      sample.speed_applied_rad_s = record.value[0];
+      break;
+    case runtime::Quantity::dipole:
+      sample.dipole_applied_a_m2 = vector(record.value);
+      break;
+    case runtime::Quantity::thrust:
+      break;  // the interval says it all
   }
   return sample;
 }
@@ -272,6 +299,24 @@ adstar_WheelState to_sample(const runtime::WheelRecord& record, std::string_view
   sample.momentum_n_m_s = record.momentum_n_m_s;
   sample.motor_torque_n_m = record.motor_torque_n_m;
   sample.friction_torque_n_m = record.friction_torque_n_m;
+  sample.flags = record.flags;
+  return sample;
+}
+
+adstar_PointingState to_sample(const runtime::PointingRecord& record, std::string_view spacecraft,
+                               std::string_view service) noexcept {
+  adstar_PointingState sample{};
+  set_text(sample.spacecraft, spacecraft);
+  set_text(sample.service, service);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.position_inertial_m = vector(record.position_I_m);
+  sample.velocity_inertial_m_s = vector(record.velocity_I_m_s);
+  sample.attitude_body_to_orbital = quaternion(record.q_OB);
+  sample.angular_velocity_to_orbital_body_rad_s = vector(record.omega_B_to_O_B_rad_s);
+  sample.pointing_error_body_rad = vector(record.error_B_rad);
+  const std::array<double, 3>& e = record.error_B_rad;
+  sample.pointing_error_rad = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
   sample.flags = record.flags;
   return sample;
 }

@@ -41,6 +41,10 @@ runtime::CommandRecord to_record(const adstar_WheelTorqueCommand& sample, std::u
                                  std::uint32_t actuator) noexcept;
 runtime::CommandRecord to_record(const adstar_WheelSpeedCommand& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept;
+runtime::CommandRecord to_record(const adstar_DipoleCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept;
+runtime::CommandRecord to_record(const adstar_ThrusterCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept;
 
 /// The daemon's decision, on the wire.
 adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string_view spacecraft,
@@ -62,6 +66,8 @@ adstar_MomentumState to_momentum(const runtime::TelemetryRecord& record,
                                  std::string_view spacecraft, std::string_view service) noexcept;
 adstar_WheelState to_sample(const runtime::WheelRecord& record, std::string_view spacecraft,
                             std::string_view wheel, std::string_view service) noexcept;
+adstar_PointingState to_sample(const runtime::PointingRecord& record, std::string_view spacecraft,
+                               std::string_view service) noexcept;
 adstar_FleetMember to_member(const runtime::FleetRecord& record) noexcept;
 adstar_StepTiming to_sample(const runtime::TimingRecord& record, std::string_view service) noexcept;
 

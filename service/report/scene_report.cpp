@@ -147,6 +147,9 @@ std::string telemetry_report(const scene::Scene& scene) {
   if (telemetry.wheel_every > 0) {
     text += topic_line("wheel_state", telemetry.wheel_every, step_ns, watched);
   }
+  if (telemetry.pointing_every > 0) {
+    text += topic_line("pointing_state", telemetry.pointing_every, step_ns, watched);
+  }
   text += topic_line("fleet_state", telemetry.fleet_every, step_ns, "all spacecraft");
   return text;
 }

@@ -75,9 +75,11 @@ std::string torque_lines(const scene::Spacecraft& craft) {
           if constexpr (std::is_same_v<Model, Commanded<double>>) {
             const auto actuator =
                 std::find_if(craft.actuators.begin(), craft.actuators.end(),
-                             [&](const scene::Actuator& a) { return !a.wheel && a.torque == i; });
+                             [&](const scene::Actuator& a) {
+                               return a.kind != scene::ActuatorKind::wheel && a.index == i;
+                             });
             what = fmt::format("actuator '{}', at most {} N m", actuator->name,
-                               vector_text(actuator->max_torque_n_m));
+                               vector_text(actuator->limit));
           } else {
             what = details(model);
           }
@@ -122,7 +124,9 @@ std::string wheel_lines(const scene::Spacecraft& craft) {
     const Wheel<double>& wheel = craft.wheels[i].at_start.wheel;
     const bool commanded =
         std::any_of(craft.actuators.begin(), craft.actuators.end(),
-                    [&](const scene::Actuator& actuator) { return actuator.wheel == i; });
+                    [&](const scene::Actuator& actuator) {
+                      return actuator.kind == scene::ActuatorKind::wheel && actuator.index == i;
+                    });
     std::string friction;
     if (wheel.viscous_n_m_s_rad > 0 || wheel.coulomb_n_m > 0) {
       friction =

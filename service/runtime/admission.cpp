@@ -28,15 +28,23 @@ scene::Spacecraft at_its_dearest(scene::Spacecraft craft) {
     craft.initial = make_state(craft.initial.q_IB, body.momentum({kRate, kRate, kRate}));
   }
   for (const scene::Actuator& actuator : craft.actuators) {
-    if (actuator.wheel) {
-      Motor<double>& motor = craft.wheels[*actuator.wheel].at_start.motor;
-      motor.window[0] = {0, kNever, {false, actuator.max_torque_n_m.x}};
+    if (actuator.kind == scene::ActuatorKind::wheel) {
+      Motor<double>& motor = craft.wheels[actuator.index].at_start.motor;
+      motor.window[0] = {0, kNever, {false, actuator.limit.x}};
       motor.intervals = 1;
       continue;
     }
-    auto& commanded = std::get<Commanded<double>>(craft.torques[actuator.torque]);
-    commanded.window[0] = {0, kNever, actuator.max_torque_n_m};
-    commanded.intervals = 1;
+    Torque<double>& torque = craft.torques[actuator.index];
+    if (auto* const commanded = std::get_if<Commanded<double>>(&torque)) {
+      commanded->window[0] = {0, kNever, actuator.limit};
+      commanded->intervals = 1;
+    } else if (auto* const coils = std::get_if<Magnetorquer<double>>(&torque)) {
+      coils->window[0] = {0, kNever, actuator.limit};
+      coils->intervals = 1;
+    } else if (auto* const thruster = std::get_if<Thruster<double>>(&torque)) {
+      thruster->window[0] = {0, kNever};
+      thruster->intervals = 1;
+    }
   }
   return craft;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "adstar/integrators/all.hpp"
+#include "adstar/orbit/orbital_frame.hpp"
 #include "service/runtime/batch_stepper.hpp"
 #include "service/runtime/threaded_stepper.hpp"
 #include "service/runtime/vehicle_step.hpp"
@@ -158,6 +159,12 @@ std::unique_ptr<Wheels> make_wheels(const scene::Spacecraft& craft) {
   return std::make_unique<Wheels>(Wheels{hub, std::move(spinning)});
 }
 
+std::unique_ptr<Reference> make_reference(const scene::Spacecraft& craft) {
+  return craft.orbit || craft.target
+             ? std::make_unique<Reference>(Reference{craft.orbit, craft.target})
+             : nullptr;
+}
+
 }  // namespace
 
 Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept {
@@ -180,7 +187,7 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
   for (const scene::Spacecraft& craft : spacecraft) {
     Vehicle vehicle{
         craft.initial,     craft.torques, 0, RigidBody<double>(craft.inertia_body_kg_m2), {}, 0,
-        make_wheels(craft)};
+        make_wheels(craft), make_reference(craft)};
     open_accounts(vehicle);
     vehicles_.push_back(std::move(vehicle));
   }
@@ -309,6 +316,32 @@ WheelRecord sample(const SpinningWheel<double>& spinning, const Vec3<double>& om
     record.friction_torque_n_m = friction_torque(spinning.wheel, record.speed_rad_s);
     record.flags = (motor.torque_limited ? kWheelTorqueLimited : 0U) |
                    (motor.speed_limited ? kWheelSpeedLimited : 0U);
+  }
+  return record;
+}
+
+PointingRecord pointing(const Vehicle& vehicle, double t_s) noexcept {
+  PointingRecord record;
+  const Reference& reference = *vehicle.reference;
+  const Quat<double> q_IB = normalised(vehicle.state.q_IB);
+  Quat<double> q_IO{};
+  if (reference.orbit) {
+    const OrbitMotion<double> motion = motion_at(*reference.orbit, t_s);
+    const OrbitalFrame<double> frame = orbital_frame(motion);
+    q_IO = frame.q_IO;
+    const Quat<double> q_OB = conjugate(q_IO) * q_IB;
+    record.flags |= kPointingOrbit;
+    assign(record.position_I_m, motion.r_I);
+    assign(record.velocity_I_m_s, motion.v_I);
+    record.q_OB = {q_OB.w, q_OB.x, q_OB.y, q_OB.z};
+    assign(record.omega_B_to_O_B_rad_s,
+           angular_velocity_of(vehicle) - rotate_inverse(q_OB, frame.omega_O));
+  }
+  if (reference.target) {
+    const Quat<double>& asked = reference.target->attitude;
+    record.flags |= kPointingTarget;
+    assign(record.error_B_rad,
+           rotation_vector(reference.target->orbital ? q_IO * asked : asked, q_IB));
   }
   return record;
 }

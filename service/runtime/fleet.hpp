@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,12 @@ struct Wheels {
   std::span<const SpinningWheel<double>> all() const noexcept { return spinning; }
 };
 
+/// What an attitude is told against; at least one of the two.
+struct Reference {
+  std::optional<Orbit<double>> orbit;
+  std::optional<scene::PointingTarget> target;
+};
+
 /// What every step touches stands first, in three cache lines.
 struct alignas(64) Vehicle {
   State<double> state;
@@ -32,6 +39,7 @@ struct alignas(64) Vehicle {
   Vec3<double> H_0;                     ///< inertial momentum at t = 0 [N m s]
   double E_0 = 0;                       ///< rotational energy at t = 0 [J]
   std::unique_ptr<Wheels> wheels;       ///< null: none
+  std::unique_ptr<Reference> reference;  ///< null: none
 };
 
 /// omega_B [rad/s]
@@ -111,6 +119,9 @@ TelemetryRecord sample(const Vehicle& vehicle) noexcept;
 
 /// The same of a wheel of a vehicle that turns at omega_B.
 WheelRecord sample(const SpinningWheel<double>& spinning, const Vec3<double>& omega_B) noexcept;
+
+/// Its attitude against its reference, which it has, at t_s.
+PointingRecord pointing(const Vehicle& vehicle, double t_s) noexcept;
 
 /// |H_I - H_0 - impulse| / max(|H_I|, |impulse|); 0 at rest, NaN when the momentum is no number.
 double momentum_residual_relative(const Vehicle& vehicle) noexcept;

@@ -23,9 +23,8 @@ CommandGate::CommandGate(const std::vector<scene::Spacecraft>& spacecraft, Verdi
     const auto& declared = spacecraft[i].actuators;
     for (std::uint32_t j = 0; j < declared.size(); ++j) {
       const scene::Actuator& each = declared[j];
-      actuators_.push_back({i, j, static_cast<std::uint32_t>(each.wheel.value_or(each.torque)),
-                            each.max_torque_n_m, each.wheel.has_value(), each.max_speed_rad_s,
-                            kNone, false});
+      actuators_.push_back({i, j, static_cast<std::uint32_t>(each.index), each.kind, each.limit,
+                            each.max_speed_rad_s, each.least_on_ns, kNone, false});
     }
   }
   first_actuator_.push_back(static_cast<std::uint32_t>(actuators_.size()));
@@ -48,6 +47,24 @@ const CommandGate::Actuator* CommandGate::find(const CommandRecord& command,
   return &actuators_[number];
 }
 
+/// Zero of what it does not have: no authority.
+Vec3<double> CommandGate::limit_of(const Actuator& actuator, Quantity quantity) noexcept {
+  using scene::ActuatorKind;
+  switch (quantity) {
+    case Quantity::torque:
+      return actuator.kind == ActuatorKind::torque || actuator.kind == ActuatorKind::wheel
+                 ? actuator.limit
+                 : Vec3<double>{};
+    case Quantity::wheel_speed:
+      return {actuator.max_speed_rad_s, 0, 0};
+    case Quantity::dipole:
+      return actuator.kind == ActuatorKind::magnetorquer ? actuator.limit : Vec3<double>{};
+    case Quantity::thrust:
+      return actuator.kind == ActuatorKind::thruster ? actuator.limit : Vec3<double>{};
+  }
+  return {};
+}
+
 VerdictRecord CommandGate::answer_to(const CommandRecord& command,
                                      const Beat& beat) const noexcept {
   VerdictRecord verdict;
@@ -56,7 +73,7 @@ VerdictRecord CommandGate::answer_to(const CommandRecord& command,
   verdict.spacecraft = command.spacecraft;
   verdict.actuator = command.actuator;
   verdict.priority = command.priority;
-  verdict.of_speed = command.of_speed;
+  verdict.quantity = command.quantity;
   verdict.step = beat.step;
   verdict.time_ns = beat.t_ns;
   return verdict;
@@ -149,15 +166,12 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
   }
   stream->last_sequence = command.sequence;
 
-  // A speed for what is no wheel's: no authority.
-  const Vec3<double> limits = command.of_speed != 0 ? Vec3<double>{actuator.max_speed_rad_s, 0, 0}
-                                                    : actuator.max_torque_n_m;
-  const Judgement judgement = judge(command, limits, beat.t_ns);
+  const Judgement judgement = judge(command, limit_of(actuator, command.quantity), beat.t_ns);
   verdict.verdict = judgement.verdict;
   verdict.reason = judgement.reason;
   verdict.start_ns = judgement.start_ns;
-  verdict.end_ns = judgement.end_ns;
-  verdict.torque_n_m = judgement.torque_n_m;
+  verdict.end_ns = std::max(judgement.end_ns, judgement.start_ns + actuator.least_on_ns);
+  verdict.value = judgement.value;
   if (verdict.verdict == Verdict::refused || verdict.verdict == Verdict::expired) {
     conclude(*stream, verdict);
     return;
@@ -261,10 +275,10 @@ void CommandGate::release(std::uint32_t entry) noexcept {
 namespace {
 
 void set(TorqueInterval<double>& interval, const VerdictRecord& v) noexcept {
-  interval = {v.start_ns, v.end_ns, {v.torque_n_m[0], v.torque_n_m[1], v.torque_n_m[2]}};
+  interval = {v.start_ns, v.end_ns, {v.value[0], v.value[1], v.value[2]}};
 }
 void set(MotorInterval<double>& interval, const VerdictRecord& v) noexcept {
-  interval = {v.start_ns, v.end_ns, {v.of_speed != 0, v.torque_n_m[0]}};
+  interval = {v.start_ns, v.end_ns, {v.quantity == Quantity::wheel_speed, v.value[0]}};
 }
 
 }  // namespace
@@ -275,10 +289,22 @@ void CommandGate::begin(const Beat& beat, Fleet* fleet) noexcept {
     if (fleet == nullptr) {
       Commanded<double> nobodys;
       advance(actuator, beat, nobodys);
-    } else if (Vehicle& vehicle = fleet->vehicles()[actuator.spacecraft]; actuator.is_wheel) {
-      advance(actuator, beat, vehicle.wheels->spinning[actuator.torque].motor);
     } else {
-      advance(actuator, beat, std::get<Commanded<double>>(vehicle.torques[actuator.torque]));
+      Vehicle& vehicle = fleet->vehicles()[actuator.spacecraft];
+      switch (actuator.kind) {
+        case scene::ActuatorKind::torque:
+          advance(actuator, beat, std::get<Commanded<double>>(vehicle.torques[actuator.moves]));
+          break;
+        case scene::ActuatorKind::wheel:
+          advance(actuator, beat, vehicle.wheels->spinning[actuator.moves].motor);
+          break;
+        case scene::ActuatorKind::magnetorquer:
+          advance(actuator, beat, std::get<Magnetorquer<double>>(vehicle.torques[actuator.moves]));
+          break;
+        case scene::ActuatorKind::thruster:
+          advance(actuator, beat, std::get<Thruster<double>>(vehicle.torques[actuator.moves]));
+          break;
+      }
     }
     if (actuator.head == kNone) {
       actuator.busy = false;

@@ -87,16 +87,18 @@ class CommandGate {
 
   struct Actuator {
     std::uint32_t spacecraft = 0;
-    std::uint32_t index = 0;   ///< within its spacecraft
-    std::uint32_t torque = 0;  ///< within Vehicle::torques, or its wheels
-    Vec3<double> max_torque_n_m;
-    bool is_wheel = false;
-    double max_speed_rad_s = 0;
+    std::uint32_t index = 0;  ///< within its spacecraft
+    std::uint32_t moves = 0;  ///< within Vehicle::torques, or its wheels
+    scene::ActuatorKind kind = scene::ActuatorKind::torque;
+    Vec3<double> limit;
+    double max_speed_rad_s = 0;    ///< of a wheel
+    std::int64_t least_on_ns = 0;  ///< of a thruster
     std::uint32_t head = kNone;
     bool busy = false;  ///< listed in busy_
   };
 
   const Actuator* find(const CommandRecord& command, std::uint32_t& number) const noexcept;
+  static Vec3<double> limit_of(const Actuator& actuator, Quantity quantity) noexcept;
   VerdictRecord answer_to(const CommandRecord& command, const Beat& beat) const noexcept;
   void put(const VerdictRecord& verdict) noexcept;
   void conclude(Stream& stream, const VerdictRecord& verdict) noexcept;

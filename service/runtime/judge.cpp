@@ -36,32 +36,32 @@ bool interval(const CommandRecord& command, std::int64_t now_ns, Judgement& resu
 }
 
 /// Scales the whole vector to its limits.
-void clamp(std::array<double, 3>& torque, const std::array<double, 3>& limits,
+void clamp(std::array<double, 3>& value, const std::array<double, 3>& limits,
            double largest) noexcept {
   // Unit length first: limit / 1e308 would be a subnormal number, too coarse to scale by.
   double scale = kHuge;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    torque[axis] /= largest;
-    if (torque[axis] != 0) {
-      scale = std::min(scale, limits[axis] / std::fabs(torque[axis]));
+    value[axis] /= largest;
+    if (value[axis] != 0) {
+      scale = std::min(scale, limits[axis] / std::fabs(value[axis]));
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // The product may round one unit past the limit.
-    torque[axis] = std::clamp(scale * torque[axis], -limits[axis], limits[axis]);
+    value[axis] = std::clamp(scale * value[axis], -limits[axis], limits[axis]);
   }
 }
 
 }  // namespace
 
-Judgement judge(const CommandRecord& command, const Vec3<double>& max_torque_n_m,
+Judgement judge(const CommandRecord& command, const Vec3<double>& limit,
                 std::int64_t now_ns) noexcept {
   Judgement result;
-  if (!all_finite(command.torque_n_m)) {
+  if (!all_finite(command.value)) {
     result.reason = Reason::not_finite;
     return result;
   }
-  result.torque_n_m = command.torque_n_m;
+  result.value = command.value;
   if (!interval(command, now_ns, result)) {
     result.reason = Reason::bad_interval;
     return result;
@@ -70,11 +70,11 @@ Judgement judge(const CommandRecord& command, const Vec3<double>& max_torque_n_m
     result.verdict = Verdict::expired;
     return result;
   }
-  const std::array<double, 3> limits{max_torque_n_m.x, max_torque_n_m.y, max_torque_n_m.z};
+  const std::array<double, 3> limits{limit.x, limit.y, limit.z};
   double largest = 0;
   bool beyond = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double asked = std::fabs(command.torque_n_m[axis]);
+    const double asked = std::fabs(command.value[axis]);
     if (asked > 0 && limits[axis] == 0) {
       result.reason = Reason::no_authority;
       return result;
@@ -86,7 +86,7 @@ Judgement judge(const CommandRecord& command, const Vec3<double>& max_torque_n_m
   result.verdict = late ? Verdict::applied_late : Verdict::applied;
   if (beyond) {
     result.verdict = Verdict::clamped;
-    clamp(result.torque_n_m, limits, largest);
+    clamp(result.value, limits, largest);
   }
   return result;
 }

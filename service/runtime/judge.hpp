@@ -15,12 +15,12 @@ struct Judgement {
   Reason reason = Reason::none;
   std::int64_t start_ns = 0;  ///< effective
   std::int64_t end_ns = 0;
-  std::array<double, 3> torque_n_m{};  ///< after the clamp
+  std::array<double, 3> value{};  ///< after the clamp
 };
 
 /// `now_ns`: simulation time at which the coming step begins. Finite, interval, age, authority,
 /// clamp, in this order. The clamp scales the whole vector, so that the direction stays.
-Judgement judge(const CommandRecord& command, const Vec3<double>& max_torque_n_m,
+Judgement judge(const CommandRecord& command, const Vec3<double>& limit,
                 std::int64_t now_ns) noexcept;
 
 }  // namespace adstar::runtime

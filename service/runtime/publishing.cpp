@@ -39,11 +39,13 @@ void Tick::publish(std::uint64_t step, bool everything) noexcept {
     }
   }
   const bool wheels = due_at(step, telemetry_.wheel_every, everything);
-  if (wheels) {
-    for (const std::uint32_t spacecraft : telemetry_.watched) {
-      if (!push_wheels(spacecraft, 0, step)) {
-        add(report_.telemetry_lost, 1);
-      }
+  const bool pointing = due_at(step, telemetry_.pointing_every, everything);
+  for (const std::uint32_t spacecraft : telemetry_.watched) {
+    if (wheels && !push_wheels(spacecraft, 0, step)) {
+      add(report_.telemetry_lost, 1);
+    }
+    if (pointing && !push_pointing(spacecraft, 0, step)) {
+      add(report_.telemetry_lost, 1);
     }
   }
   if (fleet) {
@@ -52,7 +54,7 @@ void Tick::publish(std::uint64_t step, bool everything) noexcept {
   const std::size_t verdicts = segment_->verdicts.size();
   raise(report_.most_verdicts, verdicts);
   raise(report_.most_telemetry, segment_->telemetry.size());
-  if (topics != 0 || fleet || wheels || verdicts > 0 || answers_wait()) {
+  if (topics != 0 || fleet || wheels || pointing || verdicts > 0 || answers_wait()) {
     wake_bridge(*segment_);
   }
 }
@@ -90,6 +92,21 @@ bool Tick::push_wheels(std::uint32_t spacecraft, std::uint32_t flags, std::uint6
     segment_->wheels.push(record);
   }
   return true;
+}
+
+bool Tick::push_pointing(std::uint32_t spacecraft, std::uint32_t flags,
+                         std::uint64_t step) noexcept {
+  const Vehicle& vehicle = fleet_.vehicles()[spacecraft];
+  if (vehicle.reference == nullptr) {
+    return true;
+  }
+  const std::int64_t time_ns = static_cast<std::int64_t>(step) * step_ns_;
+  PointingRecord record = pointing(vehicle, seconds<double>(time_ns));
+  record.spacecraft = spacecraft;
+  record.flags |= flags;
+  record.step = step;
+  record.time_ns = time_ns;
+  return segment_->pointing.push(record);
 }
 
 void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
@@ -138,6 +155,9 @@ void Tick::publish_final(int patience_ms) {
     }
     if (telemetry_.wheel_every != 0) {
       patiently([&] { return push_wheels(spacecraft, kFlagFinal, step); });
+    }
+    if (telemetry_.pointing_every != 0) {
+      patiently([&] { return push_pointing(spacecraft, kFlagFinal, step); });
     }
   }
   if (telemetry_.fleet_every != 0) {

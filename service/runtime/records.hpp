@@ -18,19 +18,27 @@ struct CommanderId {
 /// CommandRecord::start_ns that asks for "from the next beat".
 inline constexpr std::int64_t kStartAtNextBeat = -std::numeric_limits<std::int64_t>::max();
 
-/// One TorqueCommand, names resolved to indices. Not yet judged.
+/// What the numbers of a command are.
+enum class Quantity : std::uint32_t {
+  torque,  ///< [N m] in the actuator's frame; of a motor about its axis: x; of one along it: [N]
+  wheel_speed,  ///< x: relative to the body [rad/s]
+  dipole,       ///< of a magnetorquer, in B [A m²]
+  thrust        ///< x: 1, the thruster is on
+};
+
+/// One command of any actuator, names resolved to indices. Not yet judged.
 struct CommandRecord {
   CommanderId commander;
   std::uint64_t sequence = 0;
   std::uint32_t spacecraft = 0;
   std::uint32_t actuator = 0;
   std::int32_t priority = 0;
-  std::uint32_t of_speed = 0;                ///< 1: torque_n_m[0] is a wheel's speed [rad/s]
+  Quantity quantity = Quantity::torque;
   std::int64_t start_ns = kStartAtNextBeat;  ///< simulation time
   std::int64_t end_ns = 0;                   ///< simulation time, exclusive; 0 with a duration
   std::int64_t duration_ns = 0;              ///< from the effective start; 0 with an end
-  std::array<double, 3> torque_n_m{};  ///< in the actuator's frame; of a wheel about its axis: x
-  std::int64_t received_ns = 0;        ///< monotonic clock, by the bridge; 0: not stamped
+  std::array<double, 3> value{};             ///< of `quantity`
+  std::int64_t received_ns = 0;              ///< monotonic clock, by the bridge; 0: not stamped
 };
 
 /// Same values and order as Verdict in idl/command.idl.
@@ -69,12 +77,12 @@ struct VerdictRecord {
   std::int32_t priority = 0;
   Verdict verdict = Verdict::refused;
   Reason reason = Reason::none;
-  std::uint32_t of_speed = 0;          ///< as in the command
-  std::uint64_t step = 0;              ///< decided at; when applied: the first step it acts in
-  std::int64_t time_ns = 0;            ///< simulation time of that step's beginning
-  std::int64_t start_ns = 0;           ///< in force from
-  std::int64_t end_ns = 0;             ///< in force until, exclusive
-  std::array<double, 3> torque_n_m{};  ///< as applied
+  Quantity quantity = Quantity::torque;  ///< as in the command
+  std::uint64_t step = 0;                ///< decided at; when applied: the first step it acts in
+  std::int64_t time_ns = 0;              ///< simulation time of that step's beginning
+  std::int64_t start_ns = 0;             ///< in force from
+  std::int64_t end_ns = 0;               ///< in force until, exclusive
+  std::array<double, 3> value{};         ///< as applied
 };
 
 /// Which topics a TelemetryRecord goes to, bit by bit.
@@ -125,6 +133,23 @@ struct WheelRecord {
   double momentum_n_m_s = 0;
   double motor_torque_n_m = 0;
   double friction_torque_n_m = 0;
+};
+
+/// Flags of a PointingRecord, beside kFlagFinal; same values as in idl/telemetry.idl.
+inline constexpr std::uint32_t kPointingOrbit = 1;
+inline constexpr std::uint32_t kPointingTarget = 2;
+
+/// One spacecraft at one step, against its orbit and the attitude that it should have.
+struct PointingRecord {
+  std::uint32_t spacecraft = 0;
+  std::uint32_t flags = 0;  ///< what is there; the rest is zero
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  std::array<double, 3> position_I_m{};
+  std::array<double, 3> velocity_I_m_s{};
+  std::array<double, 4> q_OB{};                  ///< body to orbital frame: w, x, y, z
+  std::array<double, 3> omega_B_to_O_B_rad_s{};  ///< of B relative to O, in B
+  std::array<double, 3> error_B_rad{};           ///< rotation vector from the target to the body, in B
 };
 
 /// One spacecraft in the fleet snapshot.

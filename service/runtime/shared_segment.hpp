@@ -60,6 +60,7 @@ struct SharedSegment {
   SpscRing<VerdictRecord, 8192> verdicts;              ///< tick → bridge
   SpscRing<TelemetryRecord, 16384> telemetry;          ///< tick → bridge
   SpscRing<WheelRecord, 8192> wheels;                  ///< tick → bridge
+  SpscRing<PointingRecord, 8192> pointing;             ///< tick → bridge
   SpscRing<StepRequestRecord, 64> step_requests;       ///< bridge → tick
   SpscRing<StepReplyRecord, 256> step_replies;         ///< tick → bridge
   SpscRing<ControlRecord, 64> controls;                ///< bridge → tick

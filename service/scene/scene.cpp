@@ -68,7 +68,8 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   Scene scene;
   SimulationSection section = read_simulation(root);
   scene.simulation = std::move(section.simulation);
-  Spacecrafts fleet = read_spacecraft(root, file, tables);
+  const std::optional<Earth> earth = read_earth(root, scene.simulation);
+  Spacecrafts fleet = read_spacecraft(root, file, tables, earth ? &*earth : nullptr);
   if (const Spacecraft* forced = first_forced(fleet.spacecraft);
       forced != nullptr && claims_of(scene.simulation.scheme).free_only) {
     section.scheme.refuse_as(

@@ -14,7 +14,7 @@
 
 #include "adstar/bodies/wheel.hpp"
 #include "adstar/integrators/guard.hpp"
-#include "adstar/orbit/kepler.hpp"
+#include "adstar/orbit/orbit.hpp"
 #include "adstar/state.hpp"
 #include "adstar/torques/all.hpp"
 #include "service/scene/security_files.hpp"
@@ -69,19 +69,33 @@ struct Budget {
   bool refuse_at_start = true;  ///< a scene whose step was measured not to fit
 };
 
-/// A commanded torque of the scene, or the motor of a wheel that is commanded.
+enum class ActuatorKind {
+  torque,        ///< Spacecraft::torques[index] is its adstar::Commanded
+  wheel,         ///< the motor of Spacecraft::wheels[index]
+  magnetorquer,  ///< Spacecraft::torques[index] is its adstar::Magnetorquer
+  thruster       ///< Spacecraft::torques[index] is its adstar::Thruster
+};
+
+/// What can be commanded.
 struct Actuator {
   std::string name;
-  std::size_t torque = 0;       ///< Spacecraft::torques[torque] is its adstar::Commanded
-  Vec3<double> max_torque_n_m;  ///< of a wheel: the motor's, about its axis, in x
-  std::optional<std::size_t> wheel =
-      std::nullopt;            ///< none: a torque; else Spacecraft::wheels[*wheel]
-  double max_speed_rad_s = 0;  ///< of a wheel
+  ActuatorKind kind = ActuatorKind::torque;
+  std::size_t index = 0;
+  Vec3<double>
+      limit;  ///< of a torque [N m]; of a wheel's motor, x [N m]; of a dipole in B [A m²]; of a thruster 1 in x
+  double max_speed_rad_s = 0;    ///< of a wheel
+  std::int64_t least_on_ns = 0;  ///< of a thruster: a shorter command is lengthened
 };
 
 struct NamedWheel {
   std::string name;
   SpinningWheel<double> at_start;
+};
+
+/// The attitude that a spacecraft should have: against it its error is told.
+struct PointingTarget {
+  bool orbital = false;     ///< in the orbital frame, which turns; else in I
+  Quat<double> attitude{};  ///< of the body in that frame, unit
 };
 
 struct Spacecraft {
@@ -91,7 +105,8 @@ struct Spacecraft {
   std::vector<Torque<double>> torques;
   std::vector<Actuator> actuators;
   std::vector<NamedWheel> wheels;
-  std::optional<KeplerOrbit<double>> orbit;  ///< none: none is modelled
+  std::optional<PointingTarget> target;  ///< none: no error is told
+  std::optional<Orbit<double>> orbit;  ///< none: none is modelled
 };
 
 /// Publication periods in whole steps; 0: not published.
@@ -101,7 +116,8 @@ struct Telemetry {
   std::uint64_t fleet_every = 0;
   std::vector<std::uint32_t>
       watched;                    ///< spacecraft with AttitudeState and MomentumState of their own
-  std::uint64_t wheel_every = 0;  ///< WheelState of theirs
+  std::uint64_t wheel_every = 0;     ///< WheelState of theirs
+  std::uint64_t pointing_every = 0;  ///< PointingState of those with an orbit or a target
 };
 
 /// What a run leaves on disk.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "service/scene/earth_keys.hpp"
 #include "service/scene/keys.hpp"
 #include "service/scene/scene.hpp"
 
@@ -26,7 +27,8 @@ struct Spacecrafts {
   bool every_name_known =
       true;  ///< false when a name is missing, so that "unknown" would be a guess
 };
-Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Tables tables);
+Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Tables tables,
+                            const Earth* earth);
 
 Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fleet);
 Budget read_budget(Keys& root, const Simulation& simulation);

@@ -32,7 +32,8 @@ struct Plan {
   Value motion_value;
   RangedVector motion_vector;
   std::vector<TorquePlan> torques;
-  std::optional<KeplerOrbit<double>> orbit;
+  std::optional<Orbit<double>> orbit;
+  std::optional<PointingTarget> target;
   Value wheels_value;
   std::vector<WheelPlan> wheels;
 };
@@ -84,6 +85,30 @@ std::optional<Quat<double>> read_attitude(const Value& value, bool& drawn) {
     return std::nullopt;
   }
   return given;
+}
+
+std::optional<PointingTarget> read_target(const Value& value, bool has_orbit) {
+  if (!value) {
+    return std::nullopt;
+  }
+  Keys keys(value, "frame = \"orbital\" in [spacecraft.pointing]");
+  constexpr std::array<std::string_view, 2> kFrames{"orbital", "inertial"};
+  const Value frame_value =
+      keys.required("frame", {"one of orbital, inertial", has_orbit ? "\"orbital\"" : "\"inertial\""});
+  const auto frame = read_choice(frame_value, kFrames);
+  bool drawn = false;
+  const Value attitude_value = keys.optional("attitude_body_to_frame");
+  const auto attitude = read_attitude(attitude_value, drawn);
+  if (drawn) {
+    attitude_value.refuse("{ w, x, y, z }: a target is not drawn", kAttitudeExample);
+  }
+  if (frame == 0U && !has_orbit) {
+    frame_value.refuse("an orbit of the spacecraft beside it",
+                       "[spacecraft.orbit] with semi_major_axis_m = 6.9e6");
+  }
+  keys.refuse_unknown();
+  return frame && attitude ? std::optional(PointingTarget{*frame == 0, normalised(*attitude)})
+                           : std::nullopt;
 }
 
 void read_motion(Keys& keys, Plan& plan) {
@@ -139,8 +164,10 @@ Plan read_plan(Keys& keys, TorqueContext context) {
   read_motion(keys, plan);
   drawn = drawn || plan.motion_vector.drawn;
   const Value orbit = keys.optional("orbit");
-  plan.orbit = read_orbit(orbit);
+  plan.orbit = read_orbit(
+      orbit, {context.scene_file, context.tables, context.earth ? &context.earth->epoch : nullptr});
   context.has_orbit = static_cast<bool>(orbit);
+  plan.target = read_target(keys.optional("pointing"), context.has_orbit);
   plan.torques = read_torques(keys.optional("torque"), context);
   for (const TorquePlan& torque : plan.torques) {
     drawn = drawn || torque.drawn;
@@ -236,6 +263,7 @@ Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertia
     }
   }
   spacecraft.orbit = plan.orbit;
+  spacecraft.target = plan.target;
   if (!plan.wheels.empty()) {
     if (!leaves_a_body(plan.wheels, body)) {
       wheels.note(spacecraft.name,
@@ -288,7 +316,8 @@ void refuse_duplicate_names(const std::vector<Plan>& plans) {
 
 }  // namespace
 
-Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Tables tables) {
+Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Tables tables,
+                            const Earth* earth) {
   Spacecrafts result;
   constexpr std::string_view kExpected = "at least one [[spacecraft]]";
   const Value value = root.optional("spacecraft");
@@ -303,7 +332,7 @@ Spacecrafts read_spacecraft(Keys& root, const std::filesystem::path& file, Table
     result.every_name_known = false;
     return result;
   }
-  const TorqueContext context{file, tables};
+  const TorqueContext context{file, tables, earth};
   std::vector<Plan> plans;
   for (std::size_t i = 0; i < value.node().items.size(); ++i) {
     const std::size_t complaints = root.complaints().count();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "service/scene/earth_keys.hpp"
 #include "service/scene/fleet.hpp"
 #include "service/scene/scene.hpp"
 
@@ -28,7 +29,8 @@ struct TorquePlan {
 struct TorqueContext {
   const std::filesystem::path& scene_file;
   Tables tables;
-  bool has_orbit = false;  ///< the spacecraft names one
+  const Earth* earth = nullptr;  ///< null: the scene has no epoch
+  bool has_orbit = false;        ///< the spacecraft names one
 };
 
 /// The models of one spacecraft; `value` is its "torque", which may be absent.

@@ -195,9 +195,9 @@ void add_wheels(const std::vector<WheelPlan>& plan, const Vec3<double>& omega_B,
     spinning.start_at(each.speed_rad_s, omega_B);
     if (each.commanded) {
       spacecraft.actuators.push_back({each.name,
-                                      0,
-                                      {each.wheel.max_torque_n_m, 0, 0},
+                                      ActuatorKind::wheel,
                                       spacecraft.wheels.size(),
+                                      {each.wheel.max_torque_n_m, 0, 0},
                                       each.wheel.max_speed_rad_s});
     }
     spacecraft.wheels.push_back({each.name, spinning});

@@ -31,7 +31,7 @@ runtime::CommandRecord a_command(ByteStream& bytes, std::uint8_t kind, std::int6
   const bool anything = (kind & 1U) != 0;
   c.sequence = (kind & 2U) != 0 ? bytes.take<std::uint64_t>() : bytes.take<std::uint8_t>();
   c.priority = bytes.take<std::int8_t>();
-  c.of_speed = (kind & 64U) != 0 ? 1 : 0;
+  c.quantity = (kind & 64U) != 0 ? runtime::Quantity::wheel_speed : runtime::Quantity::torque;
   c.start_ns = (kind & 4U) != 0 ? runtime::kStartAtNextBeat : a_time(bytes, anything, now_ns);
   if ((kind & 8U) == 0) {
     c.duration_ns = anything ? bytes.take<std::int64_t>() : bytes.take<std::uint8_t>() * kMs / 4;
@@ -39,7 +39,7 @@ runtime::CommandRecord a_command(ByteStream& bytes, std::uint8_t kind, std::int6
   if ((kind & 24U) != 0) {
     c.end_ns = a_time(bytes, anything, now_ns);
   }
-  for (double& x : c.torque_n_m) {
+  for (double& x : c.value) {
     x = (kind & 32U) != 0 ? bytes.take<double>() : bytes.take<std::int8_t>() / 100.0;
   }
   return c;

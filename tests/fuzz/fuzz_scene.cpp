@@ -32,14 +32,19 @@ void check_spacecraft(const scene::Spacecraft& craft) {
     require(std::isfinite(named.at_start.h.value), "a wheel's momentum is not finite");
   }
   for (const scene::Actuator& actuator : craft.actuators) {
-    if (actuator.wheel) {
-      require(*actuator.wheel < craft.wheels.size(), "an actuator is no wheel");
+    require(norm(actuator.limit) < INFINITY, "an actuator has no limit");
+    if (actuator.kind == scene::ActuatorKind::wheel) {
+      require(actuator.index < craft.wheels.size(), "an actuator is no wheel");
       continue;
     }
-    require(actuator.torque < craft.torques.size() &&
-                std::holds_alternative<Commanded<double>>(craft.torques[actuator.torque]),
-            "an actuator is no commanded torque");
-    require(norm(actuator.max_torque_n_m) < INFINITY, "an actuator has no limit");
+    require(actuator.index < craft.torques.size(), "an actuator is no model");
+    const Torque<double>& torque = craft.torques[actuator.index];
+    const bool right = actuator.kind == scene::ActuatorKind::torque
+                           ? std::holds_alternative<Commanded<double>>(torque)
+                       : actuator.kind == scene::ActuatorKind::magnetorquer
+                           ? std::holds_alternative<Magnetorquer<double>>(torque)
+                           : std::holds_alternative<Thruster<double>>(torque);
+    require(right, "an actuator is another kind of model");
   }
 }
 

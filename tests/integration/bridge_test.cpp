@@ -85,7 +85,7 @@ TEST_F(Bridge, hands_a_command_over_with_the_indices_of_the_scene) {
   EXPECT_EQ(record->start_ns, runtime::kStartAtNextBeat);
   EXPECT_EQ(record->end_ns, 0);
   EXPECT_EQ(record->duration_ns, 5'000'000'000);
-  EXPECT_EQ(record->torque_n_m, (std::array{0.1, 0.2, 0.3}));
+  EXPECT_EQ(record->value, (std::array{0.1, 0.2, 0.3}));
 }
 
 TEST_F(Bridge, does_not_judge_numbers) {
@@ -95,7 +95,7 @@ TEST_F(Bridge, does_not_judge_numbers) {
   wild.torque_n_m.x = std::numeric_limits<double>::quiet_NaN();
   wild.duration_ns = -1;
   send(bridge, wild);
-  EXPECT_TRUE(std::isnan(bridge.segment()->commands.pop()->torque_n_m[0]));
+  EXPECT_TRUE(std::isnan(bridge.segment()->commands.pop()->value[0]));
 }
 
 TEST_F(Bridge, counts_the_commands_that_find_the_ring_full) {
@@ -124,7 +124,7 @@ TEST_F(Bridge, publishes_a_verdict_as_command_status) {
   verdict.verdict = runtime::Verdict::clamped;
   verdict.step = 99;
   verdict.time_ns = 990'000'000;
-  verdict.torque_n_m = {0.5, 0, 0};
+  verdict.value = {0.5, 0, 0};
   ASSERT_TRUE(bridge.segment()->verdicts.push(verdict));
   runtime::wake_bridge(*bridge.segment());
   bool seen = false;

@@ -21,8 +21,8 @@ namespace adstar::runtime {
 inline bool operator==(const VerdictRecord& a, const VerdictRecord& b) {
   const auto all = [](const VerdictRecord& v) {
     return std::tuple(v.commander.high, v.commander.low, v.sequence, v.spacecraft, v.actuator,
-                      v.priority, v.verdict, v.reason, v.of_speed, v.step, v.time_ns, v.start_ns,
-                      v.end_ns, std::bit_cast<std::array<std::uint64_t, 3>>(v.torque_n_m));
+                      v.priority, v.verdict, v.reason, v.quantity, v.step, v.time_ns, v.start_ns,
+                      v.end_ns, std::bit_cast<std::array<std::uint64_t, 3>>(v.value));
   };
   return all(a) == all(b);
 }
@@ -31,8 +31,8 @@ inline std::ostream& operator<<(std::ostream& out, const VerdictRecord& v) {
   return out << "{commander " << v.commander.low << " sequence " << v.sequence << " on "
              << v.spacecraft << "/" << v.actuator << ": verdict " << static_cast<int>(v.verdict)
              << " reason " << static_cast<int>(v.reason) << " step " << v.step << " in force ["
-             << v.start_ns << ", " << v.end_ns << ") torque " << v.torque_n_m[0] << " "
-             << v.torque_n_m[1] << " " << v.torque_n_m[2] << "}";
+             << v.start_ns << ", " << v.end_ns << ") torque " << v.value[0] << " " << v.value[1]
+             << " " << v.value[2] << "}";
 }
 
 }  // namespace adstar::runtime
@@ -60,8 +60,8 @@ inline scene::Spacecraft make_craft(int actuators, Frame frame = Frame::body,
   for (int i = 0; i < actuators; ++i) {
     Commanded<double> commanded;
     commanded.frame = frame;
-    craft.actuators.push_back(
-        {std::string("a").append(std::to_string(i)), craft.torques.size(), limit});
+    craft.actuators.push_back({std::string("a").append(std::to_string(i)),
+                               scene::ActuatorKind::torque, craft.torques.size(), limit});
     craft.torques.emplace_back(commanded);
   }
   return craft;
@@ -88,7 +88,7 @@ inline scene::Spacecraft with_wheels(scene::Spacecraft craft) {
     craft.wheels.push_back({i == 0 ? "w0" : "w1", spinning});
   }
   craft.initial = make_state(craft.initial.q_IB, rotate(craft.initial.q_IB, Pi_B));
-  craft.actuators.push_back({"w0", 0, {0.5, 0, 0}, 0, 600});
+  craft.actuators.push_back({"w0", scene::ActuatorKind::wheel, 0, {0.5, 0, 0}, 600});
   return craft;
 }
 

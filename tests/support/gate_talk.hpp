@@ -21,7 +21,7 @@ inline runtime::CommandRecord command(const runtime::CommanderId& commander, std
   record.priority = priority;
   record.start_ns = start_ns;
   record.end_ns = end_ns;
-  record.torque_n_m = {0.1 * static_cast<double>(sequence), 0, 0};
+  record.value = {0.1 * static_cast<double>(sequence), 0, 0};
   return record;
 }
 

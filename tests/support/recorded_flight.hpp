@@ -45,11 +45,11 @@ inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
     command.priority = static_cast<std::int32_t>(between(0, 8) / 4);
     command.start_ns = now + between(-20, 300) * kMs / 2;
     command.end_ns = command.start_ns + between(1, 100) * kMs;
-    command.torque_n_m = {1e-3 * static_cast<double>(between(-9, 9)), 2e-3,
-                          between(0, 30) == 0 ? std::nan("") : 1e-3};
+    command.value = {1e-3 * static_cast<double>(between(-9, 9)), 2e-3,
+                     between(0, 30) == 0 ? std::nan("") : 1e-3};
     if (wheel) {
-      command.of_speed = static_cast<std::uint32_t>(between(0, 1));
-      command.torque_n_m = {command.of_speed != 0 ? 10.0 : 0.05, 0, 0};
+      command.quantity = static_cast<runtime::Quantity>(between(0, 1));
+      command.value = {command.quantity == runtime::Quantity::wheel_speed ? 10.0 : 0.05, 0, 0};
     }
     commands.push_back(command);
   }

@@ -56,9 +56,9 @@ TEST(DdsConvert, a_command_keeps_every_field_even_the_senseless_ones) {
   EXPECT_EQ(record.start_ns, std::numeric_limits<std::int64_t>::min());
   EXPECT_EQ(record.end_ns, 5);
   EXPECT_EQ(record.duration_ns, -6);
-  EXPECT_TRUE(std::isinf(record.torque_n_m[0]));
-  EXPECT_TRUE(std::isnan(record.torque_n_m[1]));
-  EXPECT_TRUE(std::signbit(record.torque_n_m[2]));
+  EXPECT_TRUE(std::isinf(record.value[0]));
+  EXPECT_TRUE(std::isnan(record.value[1]));
+  EXPECT_TRUE(std::signbit(record.value[2]));
 }
 
 TEST(DdsConvert, a_verdict_becomes_a_status) {
@@ -72,7 +72,7 @@ TEST(DdsConvert, a_verdict_becomes_a_status) {
   record.time_ns = 6;
   record.start_ns = 7;
   record.end_ns = 8;
-  record.torque_n_m = {9, 10, 11};
+  record.value = {9, 10, 11};
   const adstar_CommandStatus sample = to_sample(record, "sat1", "body", "fly");
   EXPECT_EQ(text_of(sample.spacecraft), "sat1");
   EXPECT_EQ(text_of(sample.actuator), "body");
@@ -94,8 +94,8 @@ TEST(DdsConvert, a_verdict_becomes_a_status) {
 
 TEST(DdsConvert, the_verdict_on_a_wheels_speed_says_a_speed_and_no_torque) {
   runtime::VerdictRecord record;
-  record.of_speed = 1;
-  record.torque_n_m = {250, 0, 0};
+  record.quantity = runtime::Quantity::wheel_speed;
+  record.value = {250, 0, 0};
   const adstar_CommandStatus sample = to_sample(record, "sat1", "wheel1", "fly");
   EXPECT_EQ(sample.speed_applied_rad_s, 250);
   EXPECT_EQ(sample.torque_applied_n_m.x, 0);
@@ -119,14 +119,14 @@ TEST(DdsConvert, commands_of_a_wheel_become_records) {
   EXPECT_EQ(record.duration_ns, 7);
   EXPECT_EQ(record.spacecraft, 8U);
   EXPECT_EQ(record.actuator, 9U);
-  EXPECT_EQ(record.of_speed, 0U);
-  EXPECT_EQ(record.torque_n_m, (std::array<double, 3>{0.25, 0, 0}));
+  EXPECT_EQ(record.quantity, runtime::Quantity::torque);
+  EXPECT_EQ(record.value, (std::array<double, 3>{0.25, 0, 0}));
   adstar_WheelSpeedCommand speed{};
   speed.sequence_number = 10;
   speed.speed_rad_s = -300;
   EXPECT_EQ(to_record(speed, 0, 0).sequence, 10U);
-  EXPECT_EQ(to_record(speed, 0, 0).of_speed, 1U);
-  EXPECT_EQ(to_record(speed, 0, 0).torque_n_m, (std::array<double, 3>{-300, 0, 0}));
+  EXPECT_EQ(to_record(speed, 0, 0).quantity, runtime::Quantity::wheel_speed);
+  EXPECT_EQ(to_record(speed, 0, 0).value, (std::array<double, 3>{-300, 0, 0}));
 }
 
 TEST(DdsConvert, a_wheel_keeps_every_number_on_the_wire) {

@@ -35,10 +35,10 @@ CommandRecord command(std::uint64_t sequence, double torque) {
   record.sequence = sequence;
   record.spacecraft = static_cast<std::uint32_t>(sequence % 2);
   record.duration_ns = 35 * kMs;
-  record.torque_n_m = {torque, -torque, 0.5 * torque};
+  record.value = {torque, -torque, 0.5 * torque};
   if (sequence % 4 == 3) {  // the wheel of the second spacecraft
     record.actuator = 1;
-    record.torque_n_m = {torque, 0, 0};
+    record.value = {torque, 0, 0};
   }
   return record;
 }

@@ -63,9 +63,9 @@ CommandRecord to_record(const test::SlotCommand& c, std::uint32_t spacecraft,
   record.priority = c.priority;
   record.start_ns = c.start * kSlot;
   record.end_ns = c.end * kSlot;
-  record.torque_n_m = {torque_of(c.commander, c.sequence), 0, 0};
+  record.value = {torque_of(c.commander, c.sequence), 0, 0};
   if (c.refusal == Reason::not_finite) {
-    record.torque_n_m[1] = std::numeric_limits<double>::infinity();
+    record.value[1] = std::numeric_limits<double>::infinity();
   } else if (c.refusal == Reason::bad_interval) {
     record.end_ns = record.start_ns - 1;
   }
@@ -191,7 +191,7 @@ CommandRecord anything(Generator& random, std::int64_t now) {
   } else {
     c.end_ns = between(random, 0, 3) == 0 ? time() : c.start_ns / 2 + now / 2 + 40 * kMs;
   }
-  for (double& x : c.torque_n_m) {
+  for (double& x : c.value) {
     x = between(random, 0, 50) == 0 ? std::numeric_limits<double>::quiet_NaN()
                                     : test::uniform(random, -1.2, 1.2);
   }

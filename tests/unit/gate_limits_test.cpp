@@ -25,7 +25,7 @@ CommandRecord command(const CommanderId& commander, std::uint64_t sequence, std:
   record.priority = priority;
   record.start_ns = start_ns;
   record.end_ns = end_ns;
-  record.torque_n_m = {1, 0, 0};
+  record.value = {1, 0, 0};
   return record;
 }
 
@@ -175,7 +175,7 @@ TEST(CommandGateLimits, no_bad_command_changes_one_bit_of_the_motion) {
     }
     for (const double bad : {kNan, kInf, -kInf}) {
       CommandRecord c = command(kBob, ++sequence, pestered.now_ns(), kMax, 9);
-      c.torque_n_m[static_cast<std::size_t>(n) % 3] = bad;
+      c.value[static_cast<std::size_t>(n) % 3] = bad;
       pestered.receive(c);
     }
     for (const auto& [start, end] : std::vector<std::pair<std::int64_t, std::int64_t>>{

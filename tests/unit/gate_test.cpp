@@ -37,7 +37,7 @@ TEST(CommandGate, applies_what_is_due_in_this_step_and_names_the_step) {
   EXPECT_EQ(v.time_ns, 50 * kMs);
   EXPECT_EQ(v.start_ns, 53 * kMs);
   EXPECT_EQ(v.end_ns, 54 * kMs);
-  EXPECT_EQ(v.torque_n_m, (std::array<double, 3>{0.1, 0, 0}));
+  EXPECT_EQ(v.value, (std::array<double, 3>{0.1, 0, 0}));
   EXPECT_EQ(in_window(gate), (Window{{53 * kMs, 54 * kMs, 0.1}}));
 }
 
@@ -79,7 +79,7 @@ TEST(CommandGate, reports_a_clamp_with_what_is_applied) {
   gate.ask(command(kAlice, 5, 0, 20 * kMs));
   const auto verdicts = gate.beat();
   ASSERT_EQ(only(verdicts), Verdict::clamped);
-  EXPECT_EQ(verdicts.front().torque_n_m[0], 0.25);
+  EXPECT_EQ(verdicts.front().value[0], 0.25);
   EXPECT_EQ(in_window(gate), (Window{{0, 20 * kMs, 0.25}}));
 }
 
@@ -127,8 +127,8 @@ TEST(CommandGate, holds_to_the_first_content_of_a_sequence_number) {
   gate.receive(command(kAlice, 1, 0, 100 * kMs));
   gate.beat();
   CommandRecord other = command(kAlice, 1, 0, 500 * kMs, 9);
-  other.torque_n_m = {5, 5, 5};
-  EXPECT_EQ(gate.ask(other).at(0).torque_n_m[0], 0.1);
+  other.value = {5, 5, 5};
+  EXPECT_EQ(gate.ask(other).at(0).value[0], 0.1);
   gate.beat();
   EXPECT_EQ(in_window(gate), (Window{{0, 100 * kMs, 0.1}}));
 }
@@ -137,9 +137,9 @@ TEST(CommandGate, repeats_every_kind_of_final_verdict) {
   GateHarness gate({make_craft(1, Frame::body, {0.25, 0, 1})});
   gate.run_until(50 * kMs);
   CommandRecord nan = command(kAlice, 1, 60 * kMs, 70 * kMs);
-  nan.torque_n_m[0] = std::numeric_limits<double>::quiet_NaN();
+  nan.value[0] = std::numeric_limits<double>::quiet_NaN();
   CommandRecord no_authority = command(kAlice, 4, 60 * kMs, 70 * kMs);
-  no_authority.torque_n_m[1] = 1;
+  no_authority.value[1] = 1;
   const std::vector<CommandRecord> commands{nan, command(kAlice, 2, 70 * kMs, 60 * kMs),
                                             command(kAlice, 3, 10 * kMs, 20 * kMs), no_authority,
                                             command(kAlice, 5, 0, 90 * kMs)};

@@ -24,7 +24,7 @@ CommandRecord from_to(std::int64_t start_ns, std::int64_t end_ns) {
   CommandRecord command;
   command.start_ns = start_ns;
   command.end_ns = end_ns;
-  command.torque_n_m = {0.5, 0, 0};
+  command.value = {0.5, 0, 0};
   return command;
 }
 
@@ -36,7 +36,7 @@ CommandRecord for_duration(std::int64_t start_ns, std::int64_t duration_ns) {
 
 CommandRecord with_torque(double x, double y, double z) {
   CommandRecord command = from_to(2'000, 3'000);
-  command.torque_n_m = {x, y, z};
+  command.value = {x, y, z};
   return command;
 }
 
@@ -60,7 +60,7 @@ void expect_in_force(const Judgement& j, Verdict verdict, std::int64_t start, st
 TEST(Judge, lets_a_good_command_through_as_it_is) {
   const Judgement j = judged(with_torque(-1, 2, -3));
   expect_in_force(j, Verdict::applied, 2'000, 3'000);
-  EXPECT_EQ(j.torque_n_m, (std::array<double, 3>{-1, 2, -3}));
+  EXPECT_EQ(j.value, (std::array<double, 3>{-1, 2, -3}));
 }
 
 TEST(Judge, refuses_what_is_not_finite_on_any_axis) {
@@ -73,7 +73,7 @@ TEST(Judge, refuses_what_is_not_finite_on_any_axis) {
 
 TEST(Judge, hands_on_no_number_that_is_not_finite) {
   for (const double bad : {kNan, kInf, -kInf}) {
-    for (const double x : judged(with_torque(bad, bad, bad)).torque_n_m) {
+    for (const double x : judged(with_torque(bad, bad, bad)).value) {
       EXPECT_TRUE(std::isfinite(x));
     }
   }
@@ -157,20 +157,20 @@ TEST(Judge, refuses_torque_about_an_axis_without_authority) {
   const Vec3<double> limits{1, 0, 1};
   CommandRecord command = with_torque(0.1, 1e-300, 0);
   EXPECT_EQ(judge(command, limits, kNow).reason, Reason::no_authority);
-  command.torque_n_m = {0.1, -std::numeric_limits<double>::denorm_min(), 0};
+  command.value = {0.1, -std::numeric_limits<double>::denorm_min(), 0};
   EXPECT_EQ(judge(command, limits, kNow).verdict, Verdict::refused);
-  command.torque_n_m = {0.1, -0.0, 0.2};
+  command.value = {0.1, -0.0, 0.2};
   EXPECT_EQ(judge(command, limits, kNow).verdict, Verdict::applied);
-  command.torque_n_m = {100, 1, 0};  // beyond one limit, nothing about the other: no clamp helps
+  command.value = {100, 1, 0};  // beyond one limit, nothing about the other: no clamp helps
   EXPECT_EQ(judge(command, limits, kNow).reason, Reason::no_authority);
 }
 
 TEST(Judge, looks_at_finite_then_interval_then_age_then_authority) {
   const Vec3<double> none{0, 0, 0};
   CommandRecord command = from_to(20, 10);
-  command.torque_n_m = {kNan, 100, 0};
+  command.value = {kNan, 100, 0};
   EXPECT_EQ(judge(command, none, kNow).reason, Reason::not_finite);
-  command.torque_n_m[0] = 0;
+  command.value[0] = 0;
   EXPECT_EQ(judge(command, none, kNow).reason, Reason::bad_interval);
   command.end_ns = 30;
   EXPECT_EQ(judge(command, none, kNow).verdict, Verdict::expired);
@@ -181,7 +181,7 @@ TEST(Judge, looks_at_finite_then_interval_then_age_then_authority) {
 TEST(Judge, does_not_touch_a_torque_that_stands_exactly_at_its_limits) {
   const Judgement j = judged(with_torque(1, -2, 3));
   EXPECT_EQ(j.verdict, Verdict::applied);
-  EXPECT_EQ(j.torque_n_m, (std::array<double, 3>{1, -2, 3}));
+  EXPECT_EQ(j.value, (std::array<double, 3>{1, -2, 3}));
   EXPECT_EQ(judged(with_torque(std::nextafter(1.0, 2.0), 0, 0)).verdict, Verdict::clamped);
 }
 
@@ -189,7 +189,7 @@ TEST(Judge, clamps_the_whole_vector_and_says_so_even_when_late) {
   CommandRecord command = with_torque(2, -2, 1);
   Judgement j = judged(command);
   EXPECT_EQ(j.verdict, Verdict::clamped);
-  EXPECT_EQ(j.torque_n_m, (std::array<double, 3>{1, -1, 0.5}));
+  EXPECT_EQ(j.value, (std::array<double, 3>{1, -1, 0.5}));
   command.start_ns = 10;
   j = judged(command);
   EXPECT_EQ(j.verdict, Verdict::clamped);
@@ -206,7 +206,7 @@ TEST(Judge, clamp_keeps_the_direction_and_never_passes_a_limit_by_one_ulp) {
     const double size = test::log_uniform(random, 1e-9, n % 2 == 0 ? 1e6 : 1e307);
     const Vec3<double> asked = size * test::unit_vector(random);
     const Judgement j = judge(with_torque(asked.x, asked.y, asked.z), limits, kNow);
-    const Vec3<double> got{j.torque_n_m[0], j.torque_n_m[1], j.torque_n_m[2]};
+    const Vec3<double> got{j.value[0], j.value[1], j.value[2]};
     ASSERT_LE(std::fabs(got.x), limits.x);
     ASSERT_LE(std::fabs(got.y), limits.y);
     ASSERT_LE(std::fabs(got.z), limits.z);
@@ -234,7 +234,7 @@ TEST(Judge, clamps_the_largest_numbers_there_are_to_the_smallest_actuator) {
     const Judgement j =
         judge(with_torque(kHuge, -kHuge / 2, kHuge / 4), {limit, limit, limit}, kNow);
     EXPECT_EQ(j.verdict, Verdict::clamped);
-    EXPECT_EQ(j.torque_n_m, (std::array<double, 3>{limit, -limit / 2, limit / 4}));
+    EXPECT_EQ(j.value, (std::array<double, 3>{limit, -limit / 2, limit / 4}));
   }
 }
 

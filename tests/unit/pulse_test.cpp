@@ -26,7 +26,7 @@ CommandRecord pulse(std::int64_t start_ns, std::int64_t end_ns, const Vec3<doubl
   command.sequence = 1;
   command.start_ns = start_ns;
   command.end_ns = end_ns;
-  command.torque_n_m = {torque.x, torque.y, torque.z};
+  command.value = {torque.x, torque.y, torque.z};
   return command;
 }
 

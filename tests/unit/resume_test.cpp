@@ -63,7 +63,7 @@ TEST_F(KilledRun, a_repeated_command_gets_its_old_answer) {
   command.commander = {1, 2};
   command.sequence = 1;
   command.duration_ns = 100 * test::kMs;
-  command.torque_n_m = {1e-3, 0, 0};
+  command.value = {1e-3, 0, 0};
   std::optional<RecordedFlight> flight(std::in_place, 1, path_, run_);
   flight->gate().receive(command, flight->now());
   flight->compute();

@@ -113,9 +113,9 @@ TEST(Fleet, draws_torques_and_actuator_limits_too) {
     EXPECT_GE(constant.torque_n_m.x, 1.0);
     EXPECT_LT(constant.torque_n_m.x, 2.0);
     ASSERT_EQ(sat.actuators.size(), 1U);
-    EXPECT_EQ(sat.actuators[0].torque, 1U);
-    EXPECT_GE(sat.actuators[0].max_torque_n_m.z, 3.0);
-    EXPECT_LT(sat.actuators[0].max_torque_n_m.z, 4.0);
+    EXPECT_EQ(sat.actuators[0].index, 1U);
+    EXPECT_GE(sat.actuators[0].limit.z, 3.0);
+    EXPECT_LT(sat.actuators[0].limit.z, 4.0);
   }
   EXPECT_NE(std::get<Constant<double>>(sats[0].torques[0]).torque_n_m,
             std::get<Constant<double>>(sats[1].torques[0]).torque_n_m);

@@ -64,8 +64,8 @@ TEST(SceneLoader, reads_the_documented_scene) {
   EXPECT_EQ(std::get<Commanded<double>>(sat.torques[2]).intervals, 0U);
   ASSERT_EQ(sat.actuators.size(), 1U);
   EXPECT_EQ(sat.actuators[0].name, "body");
-  EXPECT_EQ(sat.actuators[0].torque, 2U);
-  EXPECT_EQ(sat.actuators[0].max_torque_n_m, (Vec3<double>{1.0, 1.0, 1.0}));
+  EXPECT_EQ(sat.actuators[0].index, 2U);
+  EXPECT_EQ(sat.actuators[0].limit, (Vec3<double>{1.0, 1.0, 1.0}));
 }
 
 TEST(SceneLoader, reads_a_damping) {

@@ -50,8 +50,9 @@ TEST(SceneWheel, that_is_commanded_is_an_actuator_of_its_name) {
   const Spacecraft craft = parsed(kMotor + "commanded = true\n");
   ASSERT_EQ(craft.actuators.size(), 1U);
   EXPECT_EQ(craft.actuators[0].name, "wheel1");
-  EXPECT_EQ(craft.actuators[0].wheel, 0U);
-  EXPECT_EQ(craft.actuators[0].max_torque_n_m.x, 0.2);
+  EXPECT_EQ(craft.actuators[0].kind, ActuatorKind::wheel);
+  EXPECT_EQ(craft.actuators[0].index, 0U);
+  EXPECT_EQ(craft.actuators[0].limit.x, 0.2);
   EXPECT_EQ(craft.actuators[0].max_speed_rad_s, 600);
 }
 

@@ -130,7 +130,7 @@ TEST(Overrun, halt_stops_the_clock_serves_snapshots_and_refuses_commands) {
   command.commander = kAlice;
   command.sequence = 1;
   command.duration_ns = kMs;
-  command.torque_n_m = {0.1, 0, 0};
+  command.value = {0.1, 0, 0};
   segment->commands.push(command);
   segment->snapshot_requested = 1;
   EXPECT_TRUE(wait_for([&] { return segment->verdicts.size() > 0; }));

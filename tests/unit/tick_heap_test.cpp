@@ -25,11 +25,12 @@ TEST(TickHeap, is_not_touched_by_a_run_with_commands_telemetry_and_snapshots) {
     command.sequence = n;
     command.spacecraft = n % 50 == 0 ? 77 : static_cast<std::uint32_t>(n % 2);
     command.actuator = command.spacecraft == 1 ? static_cast<std::uint32_t>(n / 2 % 2) : 0;
-    command.of_speed = command.actuator == 1 && n % 5 == 0 ? 1 : 0;
+    command.quantity =
+        command.actuator == 1 && n % 5 == 0 ? Quantity::wheel_speed : Quantity::torque;
     command.priority = static_cast<std::int32_t>(n % 3);
     command.start_ns = static_cast<std::int64_t>(n % 400) * 3 * kMs;
     command.duration_ns = static_cast<std::int64_t>(n % 17) * kMs;
-    command.torque_n_m = {n % 9 == 0 ? 1e3 : 1.0, 0, 0};
+    command.value = {n % 9 == 0 ? 1e3 : 1.0, 0, 0};
     ASSERT_TRUE(segment->commands.push(command));
   }
   segment->bridge_sleeps = 1;

@@ -83,7 +83,7 @@ class Running {
     record.sequence = ++sequence_;
     record.start_ns = start_ns;
     record.duration_ns = duration_ns;
-    record.torque_n_m = {0.25, 0, 0};
+    record.value = {0.25, 0, 0};
     segment->commands.push(record);
     wake_tick(*segment);
     return next(segment->verdicts);

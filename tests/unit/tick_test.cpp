@@ -30,7 +30,7 @@ CommandRecord command(std::uint64_t sequence, std::int64_t start_ns, std::int64_
   record.sequence = sequence;
   record.start_ns = start_ns;
   record.duration_ns = duration_ns;
-  record.torque_n_m = {0.25, 0, 0};
+  record.value = {0.25, 0, 0};
   return record;
 }
 

@@ -139,9 +139,9 @@ CommandRecord of_wheel(std::uint64_t sequence, double value, bool of_speed) {
   record.commander = kAlice;
   record.sequence = sequence;
   record.actuator = 1;
-  record.of_speed = of_speed ? 1 : 0;
+  record.quantity = of_speed ? Quantity::wheel_speed : Quantity::torque;
   record.duration_ns = 100 * kMs;
-  record.torque_n_m = {value, 0, 0};
+  record.value = {value, 0, 0};
   return record;
 }
 
@@ -170,11 +170,11 @@ TEST_F(WheelGate, hands_a_torque_to_the_motor) {
 TEST_F(WheelGate, clamps_a_torque_and_a_speed_each_to_its_own_limit) {
   const VerdictRecord torque = answer(of_wheel(1, -3, false));
   EXPECT_EQ(torque.verdict, Verdict::clamped);
-  EXPECT_EQ(torque.torque_n_m[0], -0.5);
+  EXPECT_EQ(torque.value[0], -0.5);
   const VerdictRecord speed = answer(of_wheel(2, 900, true));
   EXPECT_EQ(speed.verdict, Verdict::clamped);
-  EXPECT_EQ(speed.of_speed, 1U);
-  EXPECT_EQ(speed.torque_n_m[0], 600);
+  EXPECT_EQ(speed.quantity, Quantity::wheel_speed);
+  EXPECT_EQ(speed.value[0], 600);
   ASSERT_EQ(motor().intervals, 1U) << "the newer one took its place";
   EXPECT_TRUE(motor().window[0].order.of_speed);
   EXPECT_EQ(motor().window[0].order.value, 600);
