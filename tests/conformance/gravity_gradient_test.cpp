@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -128,7 +129,7 @@ TEST(GravityGradient, turns_the_long_axis_towards_the_earth) {
   gravity.orbit = make_orbit<double>({kRadius, 0, 0, 0, 0, 0});
   const RigidBody<double> rod(Eigen::Matrix3d(Eigen::Vector3d(1, 10, 10).asDiagonal()));
   gravity.act_on(rod);
-  const double n = gravity.orbit.mean_motion_rad_s;
+  const double n = std::get<KeplerOrbit<double>>(gravity.orbit).mean_motion_rad_s;
   const V tau = gravity.at(0, Rotation<double>({0, 0, 0.1}).quaternion());
   EXPECT_NEAR(tau.z, -1.5 * n * n * 9 * std::sin(0.2), 1e-20);
   EXPECT_EQ(tau.x, 0);

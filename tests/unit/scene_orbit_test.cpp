@@ -73,7 +73,7 @@ TEST(SceneOrbit, gives_gravity_its_body_and_its_ellipse) {
       parse(in_spacecraft("[spacecraft.orbit]\nsemi_major_axis_m = 7e6\n" + kGravity), "scene.toml")
           .spacecraft[0];
   const auto& gravity = std::get<GravityGradient<double>>(craft.torques.at(0));
-  EXPECT_EQ(gravity.orbit.semi_major_axis_m, 7e6);
+  EXPECT_EQ(std::get<KeplerOrbit<double>>(gravity.orbit).semi_major_axis_m, 7e6);
   EXPECT_EQ(gravity.inertia_B.zz, 1.66);
   EXPECT_NEAR(gravity.spread_kg_m2, 1.66 - 0.9144, 1e-15);
 }

@@ -102,4 +102,23 @@ OrbitPosition<T> position_at(const KeplerOrbit<T>& orbit, const T& t_s) {
           orbit.semi_major_axis_m * (T(1) - e * s.cos)};
 }
 
+/// Position [m] and velocity [m/s] about the centre of attraction, in I.
+template <class T>
+struct OrbitMotion {
+  Vec3<T> r_I, v_I;
+};
+
+/// v_I = n a/(1 - e cos E) (√(1 - e²) cos E Q - sin E P): the derivative of r_I (Vallado, 4th ed., section 2.2).
+template <class T>
+OrbitMotion<T> motion_at(const KeplerOrbit<T>& orbit, const T& t_s) {
+  using std::sqrt;
+  const T M = orbit.mean_anomaly_rad + orbit.mean_motion_rad_s * t_s;
+  const T &e = orbit.eccentricity, &a = orbit.semi_major_axis_m;
+  const SinCos<T> s = sincos(e == T(0) ? M : eccentric_anomaly(M, e));
+  const T minor = sqrt(T(1) - e * e);
+  const T speed = orbit.mean_motion_rad_s * a / (T(1) - e * s.cos);
+  return {(a * (s.cos - e)) * orbit.P + (a * minor * s.sin) * orbit.Q,
+          (speed * minor * s.cos) * orbit.Q - (speed * s.sin) * orbit.P};
+}
+
 }  // namespace adstar

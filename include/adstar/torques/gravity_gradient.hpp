@@ -6,7 +6,7 @@
 
 #include "adstar/attitude.hpp"
 #include "adstar/bodies/rigid_body.hpp"
-#include "adstar/orbit/kepler.hpp"
+#include "adstar/orbit/orbit.hpp"
 #include "adstar/torques/frame.hpp"
 
 namespace adstar {
@@ -15,7 +15,7 @@ template <class T>
 struct GravityGradient {
   static constexpr const char* kName = "gravity_gradient";
   static constexpr Frame frame = Frame::body;
-  KeplerOrbit<T> orbit;
+  Orbit<T> orbit;
   Sym3<T> inertia_B;  ///< of the body that it acts on
   T spread_kg_m2{};   ///< its largest principal moment less its smallest
 
@@ -31,14 +31,11 @@ struct GravityGradient {
     return strength(position.distance_m) * cross(u_B, inertia_B * u_B);
   }
   /// |u × J u| is at most half the spread of the moments.
-  T bound() const {
-    const T periapsis = orbit.semi_major_axis_m * (T(1) - orbit.eccentricity);
-    return T(0.5) * strength(periapsis) * spread_kg_m2;
-  }
+  T bound() const { return T(0.5) * strength(least_distance(orbit)) * spread_kg_m2; }
   std::int64_t next_edge_after(std::int64_t) const { return kNever; }
 
  private:
-  T strength(const T& r) const { return T(3) * (orbit.gravity_m3_s2 / r / r / r); }
+  T strength(const T& r) const { return T(3) * (gravity_of(orbit) / r / r / r); }
 };
 
 }  // namespace adstar

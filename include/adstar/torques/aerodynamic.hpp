@@ -1,0 +1,64 @@
+#pragma once
+// The drag of thin air on plates:
+//   F_i = -½ ρ v² C_i A_i (n_i·u) u where n_i·u > 0,   tau_B = Σ c_i × F_i,   u = v/|v|
+// with v the velocity against air that turns with the Earth (Wertz, Spacecraft Attitude Determination and Control, 1978, section
+// 17.2.3; Vallado, 4th ed., section 8.6.2). ρ as earth/atmosphere.hpp has it. Left out: lift and what skims along a plate,
+// plates that shade others, the body's own rotation (its rim moves by 1e-5 of v).
+
+#include <cmath>
+
+#include "adstar/attitude.hpp"
+#include "adstar/earth/atmosphere.hpp"
+#include "adstar/orbit/orbit.hpp"
+#include "adstar/torques/facets.hpp"
+#include "adstar/torques/frame.hpp"
+
+namespace adstar {
+
+template <class T>
+struct Aerodynamic {
+  static constexpr const char* kName = "aerodynamic";
+  static constexpr Frame frame = Frame::body;
+  Orbit<T> orbit;
+  EarthRotation<T> rotation;
+  Facets<T> facets;         ///< not null
+  T density_factor = T(1);  ///< on the density of the table
+
+  /// `q_IB`: of any length but zero.
+  Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const {
+    const OrbitMotion<T> motion = motion_at(orbit, t_s);
+    const Vec3<T> v_I = velocity_in_air(motion, rotation);
+    const T speed = norm(v_I);
+    if (!(speed > T(0))) {
+      return {};
+    }
+    const T density =
+        density_factor * air_density(altitude_of(position_of(motion), rotation.pole_I()));
+    const Vec3<T> u_B = rotate_inverse(normalised(q_IB), (T(1) / speed) * v_I);
+    Vec3<T> moment{};
+    for (const Facet<T>& facet : *facets) {
+      const T facing = dot(facet.normal_B, u_B);
+      if (facing > T(0)) {
+        moment = moment + (facet.drag_coefficient * facet.area_m2 * facing) * facet.centre_B_m;
+      }
+    }
+    // Σ c_i × F_i with one direction of all forces: (Σ C_i A_i cos_i c_i) × (-q u).
+    return (T(0.5) * density * speed * speed) * cross(u_B, moment);
+  }
+
+  /// At the least distance, above the equator and against the Earth's turn; a percent for where the layers meet.
+  T bound() const {
+    using std::abs;
+    const T distance = least_distance(orbit);
+    const T density = T(1.01) * density_factor * air_density(T(distance - T(kEarthRadius_m)));
+    const T speed = greatest_speed(orbit) + abs(rotation.rate_rad_s) * distance;
+    T sum{};
+    for (const Facet<T>& facet : *facets) {
+      sum = sum + facet.drag_coefficient * facet.area_m2 * norm(facet.centre_B_m);
+    }
+    return T(0.5) * density * speed * speed * sum;
+  }
+  std::int64_t next_edge_after(std::int64_t) const { return kNever; }
+};
+
+}  // namespace adstar
