@@ -57,6 +57,39 @@ std::string details(const Damping<double>& model) {
 std::string details(const GravityGradient<double>& model) {
   return fmt::format("at most {} N m", short_number(model.bound()));
 }
+std::string details(const ResidualDipole<double>& model) {
+  return fmt::format("{} A m^2, at most {} N m", vector_text(model.dipole_B_A_m2),
+                     short_number(model.bound()));
+}
+std::string details(const Aerodynamic<double>& model) {
+  return fmt::format("{} facets, at most {} N m", model.facets->size(),
+                     short_number(model.bound()));
+}
+std::string details(const SolarPressure<double>& model) {
+  return fmt::format("{} facets, at most {} N m", model.facets->size(),
+                     short_number(model.bound()));
+}
+std::string details(const Thruster<double>& model) {
+  std::string text = vector_text(model.torque_n_m) + " N m while it is on";
+  if (model.schedule) {
+    text += fmt::format(", {} times", counted(model.schedule->size()));
+  }
+  if (model.minimum_on_ns > 0) {
+    text += fmt::format(", {} at the least", scene::format_duration(model.minimum_on_ns));
+  }
+  return text;
+}
+std::string details(const Magnetorquer<double>& model) {
+  const Coils<double>& coils = *model.coils;
+  std::string text = fmt::format("at most {} A m^2", vector_text(coils.limit_A_m2));
+  if (coils.step_A_m2.x > 0) {
+    text += fmt::format(" in steps of {}", short_number(coils.step_A_m2.x));
+  }
+  if (coils.lag_s > 0) {
+    text += fmt::format(", lag {} s", short_number(coils.lag_s));
+  }
+  return text;
+}
 std::string details(const Table<double>& model) {
   const bool hold = model.interpolation == Interpolation::hold;
   return fmt::format("{} rows from {} s to {} s, {}, then {}", counted(model.time_ns.size()),
@@ -72,14 +105,15 @@ std::string torque_lines(const scene::Spacecraft& craft) {
         [&](const auto& model) {
           using Model = std::decay_t<decltype(model)>;
           std::string what;
+          const auto actuator = std::find_if(
+              craft.actuators.begin(), craft.actuators.end(), [&](const scene::Actuator& a) {
+                return a.kind != scene::ActuatorKind::wheel && a.index == i;
+              });
           if constexpr (std::is_same_v<Model, Commanded<double>>) {
-            const auto actuator =
-                std::find_if(craft.actuators.begin(), craft.actuators.end(),
-                             [&](const scene::Actuator& a) {
-                               return a.kind != scene::ActuatorKind::wheel && a.index == i;
-                             });
             what = fmt::format("actuator '{}', at most {} N m", actuator->name,
                                vector_text(actuator->limit));
+          } else if (actuator != craft.actuators.end()) {
+            what = fmt::format("actuator '{}', {}", actuator->name, details(model));
           } else {
             what = details(model);
           }
@@ -107,26 +141,53 @@ std::string motor_text(const SpinningWheel<double>& spinning, bool commanded) {
                      commanded ? " unless commanded" : "");
 }
 
-std::string orbit_line(const scene::Spacecraft& craft) {
-  if (!craft.orbit) {
-    return {};
-  }
+std::string ellipse_text(double semi_major_axis_m, double eccentricity, double mean_motion_rad_s) {
   constexpr double kTurn = 2 * std::numbers::pi;
-  return fmt::format("    orbit     Kepler, semi-major axis {} m, eccentricity {}, period {} s\n",
-                     short_number(craft.orbit->semi_major_axis_m),
-                     short_number(craft.orbit->eccentricity),
-                     short_number(kTurn / craft.orbit->mean_motion_rad_s));
+  return fmt::format("semi-major axis {} m, eccentricity {}, period {} s",
+                     short_number(semi_major_axis_m), short_number(eccentricity),
+                     short_number(kTurn / mean_motion_rad_s));
+}
+
+std::string text_of(const KeplerOrbit<double>& o) {
+  return "Kepler, " + ellipse_text(o.semi_major_axis_m, o.eccentricity, o.mean_motion_rad_s);
+}
+std::string text_of(const SecularOrbit<double>& o) {
+  constexpr double kDegreesADay = 86400 * 180 / std::numbers::pi;
+  return "Kepler with J2, " +
+         ellipse_text(o.at_start.semi_major_axis_m, o.at_start.eccentricity, o.anomaly_rate_rad_s) +
+         fmt::format(", node {} deg/day", short_number(kDegreesADay * o.node_rate_rad_s));
+}
+std::string text_of(const FixedPosition<double>& o) {
+  return fmt::format("fixed, {} m from the centre", short_number(o.position.distance_m));
+}
+std::string text_of(const std::shared_ptr<const Ephemeris<double>>& o) {
+  return fmt::format("a table of {} epochs, from {} s to {} s", counted(o->rows.size()),
+                     short_number(o->rows.front().t_s), short_number(o->rows.back().t_s));
+}
+
+std::string orbit_line(const scene::Spacecraft& craft) {
+  std::string text;
+  if (craft.orbit) {
+    text = "    orbit     " +
+           std::visit([](const auto& orbit) { return text_of(orbit); }, *craft.orbit) + "\n";
+  }
+  if (craft.target) {
+    const Quat<double>& q = craft.target->attitude;
+    text += fmt::format("    pointing  to [{}, {}, {}, {}] in the {} frame\n", short_number(q.w),
+                        short_number(q.x), short_number(q.y), short_number(q.z),
+                        craft.target->orbital ? "orbital" : "inertial");
+  }
+  return text;
 }
 
 std::string wheel_lines(const scene::Spacecraft& craft) {
   std::string text;
   for (std::size_t i = 0; i < craft.wheels.size(); ++i) {
     const Wheel<double>& wheel = craft.wheels[i].at_start.wheel;
-    const bool commanded =
-        std::any_of(craft.actuators.begin(), craft.actuators.end(),
-                    [&](const scene::Actuator& actuator) {
-                      return actuator.kind == scene::ActuatorKind::wheel && actuator.index == i;
-                    });
+    const bool commanded = std::any_of(
+        craft.actuators.begin(), craft.actuators.end(), [&](const scene::Actuator& actuator) {
+          return actuator.kind == scene::ActuatorKind::wheel && actuator.index == i;
+        });
     std::string friction;
     if (wheel.viscous_n_m_s_rad > 0 || wheel.coulomb_n_m > 0) {
       friction =

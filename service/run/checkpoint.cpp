@@ -9,7 +9,7 @@ namespace adstar::run {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'a', 'd', 's', 't', 'a', 'r', 'c', 'p'};
-constexpr std::uint64_t kFormat = 2;
+constexpr std::uint64_t kFormat = 3;
 
 struct Header {
   std::array<char, 8> magic = kMagic;
@@ -22,6 +22,7 @@ struct Header {
   std::uint64_t first_journal = 0;
   std::uint64_t vehicles = 0;
   std::uint64_t wheels = 0;
+  std::uint64_t memory_words = 0;
   std::uint64_t gate_words = 0;
   std::uint64_t control_words = 0;
 };
@@ -39,12 +40,15 @@ Bytes to_bytes(const Checkpoint& c) {
                       c.first_journal,
                       c.fleet.vehicles.size(),
                       c.fleet.wheel_momenta.size(),
+                      c.fleet.memory.size(),
                       c.gate.size(),
                       c.controls.size()};
-  const std::span<const std::byte> parts[] = {
-      std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(c.fleet.vehicles)),
-      std::as_bytes(std::span(c.fleet.wheel_momenta)), std::as_bytes(std::span(c.gate)),
-      std::as_bytes(std::span(c.controls))};
+  const std::span<const std::byte> parts[] = {std::as_bytes(std::span(&header, 1)),
+                                              std::as_bytes(std::span(c.fleet.vehicles)),
+                                              std::as_bytes(std::span(c.fleet.wheel_momenta)),
+                                              std::as_bytes(std::span(c.fleet.memory)),
+                                              std::as_bytes(std::span(c.gate)),
+                                              std::as_bytes(std::span(c.controls))};
   std::size_t length = 0;
   for (const auto& part : parts) {
     length += part.size();
@@ -73,9 +77,10 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
   constexpr std::uint64_t kWheel = sizeof(Sum<double>);
   const std::uint64_t most_words = bytes.size() / 8;
   if (header->vehicles > bytes.size() / kVehicle || header->wheels > bytes.size() / kWheel ||
-      header->gate_words > most_words || header->control_words > most_words ||
+      header->memory_words > most_words || header->gate_words > most_words ||
+      header->control_words > most_words ||
       header->vehicles * kVehicle + header->wheels * kWheel +
-              (header->gate_words + header->control_words + 1) * 8 !=
+              (header->memory_words + header->gate_words + header->control_words + 1) * 8 !=
           bytes.size()) {
     throw RunError("is cut off or changed: its length is not what it says");
   }
@@ -89,6 +94,7 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
                {}};
   c.fleet.vehicles.resize(header->vehicles);
   c.fleet.wheel_momenta.resize(header->wheels);
+  c.fleet.memory.resize(header->memory_words);
   c.gate.resize(header->gate_words);
   c.controls.resize(header->control_words);
   const auto fill = [&bytes](auto& records) {
@@ -98,6 +104,7 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
   };
   fill(c.fleet.vehicles);
   fill(c.fleet.wheel_momenta);
+  fill(c.fleet.memory);
   fill(c.gate);
   fill(c.controls);
   if (take<std::uint64_t>(bytes) != checksum(whole.first(whole.size() - 8))) {
@@ -107,8 +114,9 @@ Checkpoint checkpoint_from(std::span<const std::byte> bytes) {
 }
 
 std::uint64_t state_hash(std::uint64_t step, const runtime::FleetState& fleet) {
-  const std::array<std::uint64_t, 3> parts{step, checksum(std::as_bytes(std::span(fleet.vehicles))),
-                                           checksum(std::as_bytes(std::span(fleet.wheel_momenta)))};
+  const std::array<std::uint64_t, 4> parts{step, checksum(std::as_bytes(std::span(fleet.vehicles))),
+                                           checksum(std::as_bytes(std::span(fleet.wheel_momenta))),
+                                           checksum(std::as_bytes(std::span(fleet.memory)))};
   return checksum(std::as_bytes(std::span(parts)));
 }
 

@@ -68,6 +68,9 @@ std::string difference(const Checkpoint& checkpoint, const runtime::FleetState& 
   if (!same_bits(checkpoint.fleet.wheel_momenta, state.wheel_momenta)) {
     return "the momentum of a wheel";
   }
+  if (!same_bits(checkpoint.fleet.memory, state.memory)) {
+    return "what a model remembers";
+  }
   return gate.save() == checkpoint.gate ? "" : "the schedule of commands";
 }
 

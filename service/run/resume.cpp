@@ -147,12 +147,13 @@ bool set_to(Flight& flight, const Checkpoint& checkpoint) {
 }
 
 bool fits(const Checkpoint& checkpoint, const scene::Scene& scene) {
-  std::size_t wheels = 0;
+  std::size_t wheels = 0, words = 0;
   for (const scene::Spacecraft& craft : scene.spacecraft) {
     wheels += craft.wheels.size();
+    words += runtime::memory_words(craft);
   }
   return checkpoint.fleet.vehicles.size() == scene.spacecraft.size() &&
-         checkpoint.fleet.wheel_momenta.size() == wheels;
+         checkpoint.fleet.wheel_momenta.size() == wheels && checkpoint.fleet.memory.size() == words;
 }
 
 Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,

@@ -128,6 +128,11 @@ std::uint64_t scene_fingerprint(const scene::Scene& scene, std::string_view text
   Bytes bytes;
   append(bytes, checksum(bytes_of(text)));
   for (const scene::Spacecraft& craft : scene.spacecraft) {
+    if (const auto* const ephemeris =
+            craft.orbit ? std::get_if<std::shared_ptr<const Ephemeris<double>>>(&*craft.orbit)
+                        : nullptr) {
+      append(bytes, checksum(std::as_bytes(std::span((*ephemeris)->rows))));
+    }
     for (const Torque<double>& torque : craft.torques) {
       if (const auto* const table = std::get_if<Table<double>>(&torque)) {
         append(bytes, checksum(std::as_bytes(std::span(table->time_ns))));

@@ -8,6 +8,7 @@
 #include "adstar/integrators/all.hpp"
 #include "adstar/orbit/orbital_frame.hpp"
 #include "service/runtime/batch_stepper.hpp"
+#include "service/runtime/model_memory.hpp"
 #include "service/runtime/threaded_stepper.hpp"
 #include "service/runtime/vehicle_step.hpp"
 #include "service/runtime/wheel_stepper.hpp"
@@ -185,10 +186,20 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
     : limits_(limits) {
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
-    Vehicle vehicle{
-        craft.initial,     craft.torques, 0, RigidBody<double>(craft.inertia_body_kg_m2), {}, 0,
-        make_wheels(craft), make_reference(craft)};
+    Vehicle vehicle{craft.initial,
+                    craft.torques,
+                    0,
+                    RigidBody<double>(craft.inertia_body_kg_m2),
+                    {},
+                    0,
+                    make_wheels(craft),
+                    make_reference(craft)};
     open_accounts(vehicle);
+    for (std::size_t k = 0; k < vehicle.torques.size(); ++k) {
+      if (std::holds_alternative<Magnetorquer<double>>(vehicle.torques[k])) {
+        lagging_.push_back({vehicles_.size(), k});
+      }
+    }
     vehicles_.push_back(std::move(vehicle));
   }
   stepper_ = make_threaded_stepper(vehicles_, threads, [&](std::span<const Vehicle> part) {
@@ -256,7 +267,10 @@ void Fleet::keep_start() {
         momenta.push_back(spinning.h);
       }
     }
-    start_.push_back({vehicle.state, vehicle.body, vehicle.H_0, vehicle.E_0, std::move(momenta)});
+    std::vector<std::uint64_t> memory(memory_words(vehicle));
+    save_memory(vehicle, memory.data());
+    start_.push_back({vehicle.state, vehicle.body, vehicle.H_0, vehicle.E_0, std::move(momenta),
+                      std::move(memory)});
   }
 }
 
@@ -281,10 +295,15 @@ bool Fleet::reset() noexcept {
     vehicle.H_0 = start.H_0;
     vehicle.E_0 = start.E_0;
     for (Torque<double>& torque : vehicle.torques) {
-      if (auto* const commanded = std::get_if<Commanded<double>>(&torque)) {
-        commanded->intervals = 0;
-      }
+      std::visit(
+          [](auto& model) {
+            if constexpr (requires { model.intervals; }) {
+              model.intervals = 0;
+            }
+          },
+          torque);
     }
+    load_memory(vehicle, start.memory.data());
   }
   return true;
 }
@@ -329,7 +348,7 @@ PointingRecord pointing(const Vehicle& vehicle, double t_s) noexcept {
     const OrbitMotion<double> motion = motion_at(*reference.orbit, t_s);
     const OrbitalFrame<double> frame = orbital_frame(motion);
     q_IO = frame.q_IO;
-    const Quat<double> q_OB = conjugate(q_IO) * q_IB;
+    const Quat<double> q_OB = Quat<double>{q_IO.w, -q_IO.x, -q_IO.y, -q_IO.z} * q_IB;
     record.flags |= kPointingOrbit;
     assign(record.position_I_m, motion.r_I);
     assign(record.velocity_I_m_s, motion.v_I);

@@ -33,12 +33,12 @@ struct Reference {
 /// What every step touches stands first, in three cache lines.
 struct alignas(64) Vehicle {
   State<double> state;
-  std::vector<Torque<double>> torques;  ///< only the models that its scene names
-  std::uint32_t flags = 0;              ///< kFlagUnresolved... of the last step
-  RigidBody<double> body;               ///< wheels locked
-  Vec3<double> H_0;                     ///< inertial momentum at t = 0 [N m s]
-  double E_0 = 0;                       ///< rotational energy at t = 0 [J]
-  std::unique_ptr<Wheels> wheels;       ///< null: none
+  std::vector<Torque<double>> torques;   ///< only the models that its scene names
+  std::uint32_t flags = 0;               ///< kFlagUnresolved... of the last step
+  RigidBody<double> body;                ///< wheels locked
+  Vec3<double> H_0;                      ///< inertial momentum at t = 0 [N m s]
+  double E_0 = 0;                        ///< rotational energy at t = 0 [J]
+  std::unique_ptr<Wheels> wheels;        ///< null: none
   std::unique_ptr<Reference> reference;  ///< null: none
 };
 
@@ -72,7 +72,12 @@ class Fleet {
   /// Steps every vehicle over [t_ns, t_ns + h_ns]. Never throws, never allocates.
   /// Returns how many could not be resolved.
   std::size_t step(std::int64_t t_ns, std::int64_t h_ns) noexcept {
-    return stepper_->step(vehicles_, t_ns, h_ns, limits_);
+    const std::size_t unresolved = stepper_->step(vehicles_, t_ns, h_ns, limits_);
+    for (const Lagging& lagging : lagging_) {
+      std::get<Magnetorquer<double>>(vehicles_[lagging.vehicle].torques[lagging.torque])
+          .carry_to(t_ns + h_ns);
+    }
+    return unresolved;
   }
 
   /// From now on it moves from this attitude (of any length but zero) and momentum; its accounts
@@ -105,10 +110,15 @@ class Fleet {
     Vec3<double> H_0;
     double E_0 = 0;
     std::vector<Sum<double>> wheel_momenta;
+    std::vector<std::uint64_t> memory;
+  };
+  struct Lagging {
+    std::size_t vehicle = 0, torque = 0;
   };
 
   std::vector<Vehicle> vehicles_;
   std::vector<Start> start_;
+  std::vector<Lagging> lagging_;  ///< magnetorquers whose past is carried on
   StepLimits limits_;
   std::unique_ptr<Stepper> stepper_;
 };

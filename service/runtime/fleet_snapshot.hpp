@@ -10,6 +10,7 @@
 
 #include "adstar/bodies/rigid_body.hpp"
 #include "service/runtime/fleet.hpp"
+#include "service/runtime/model_memory.hpp"
 
 namespace adstar::runtime {
 
@@ -32,25 +33,30 @@ inline VehicleState state_of(const Vehicle& vehicle) noexcept {
 struct FleetState {
   std::vector<VehicleState> vehicles;
   std::vector<Sum<double>> wheel_momenta;  ///< h of all wheels, vehicle by vehicle [N m s]
+  std::vector<std::uint64_t> memory;       ///< of the other models, vehicle by vehicle
 };
 
 /// Room for it, in the fleet's shape.
 inline FleetState blank_state(const std::vector<Vehicle>& vehicles) {
   FleetState state;
   state.vehicles.resize(vehicles.size());
-  std::size_t wheels = 0;
+  std::size_t wheels = 0, words = 0;
   for (const Vehicle& vehicle : vehicles) {
     wheels += vehicle.wheels == nullptr ? 0 : vehicle.wheels->spinning.size();
+    words += memory_words(vehicle);
   }
   state.wheel_momenta.resize(wheels);
+  state.memory.resize(words);
   return state;
 }
 
 /// Into a state of that shape.
 inline void copy_state(const std::vector<Vehicle>& vehicles, FleetState& state) noexcept {
   std::size_t wheel = 0;
+  std::uint64_t* words = state.memory.data();
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     state.vehicles[i] = state_of(vehicles[i]);
+    words = save_memory(vehicles[i], words);
     if (vehicles[i].wheels != nullptr) {
       for (const SpinningWheel<double>& spinning : vehicles[i].wheels->spinning) {
         state.wheel_momenta[wheel++] = spinning.h;
@@ -70,10 +76,12 @@ inline FleetState state_of(const Fleet& fleet) {
 inline bool restore(Fleet& fleet, const FleetState& saved) {
   const FleetState shape = blank_state(fleet.vehicles());
   if (saved.vehicles.size() != shape.vehicles.size() ||
-      saved.wheel_momenta.size() != shape.wheel_momenta.size()) {
+      saved.wheel_momenta.size() != shape.wheel_momenta.size() ||
+      saved.memory.size() != shape.memory.size()) {
     return false;
   }
   std::size_t wheel = 0;
+  const std::uint64_t* words = saved.memory.data();
   for (std::size_t i = 0; i < saved.vehicles.size(); ++i) {
     Vehicle& vehicle = fleet.vehicles()[i];
     const VehicleState& state = saved.vehicles[i];
@@ -84,6 +92,7 @@ inline bool restore(Fleet& fleet, const FleetState& saved) {
     vehicle.flags = static_cast<std::uint32_t>(state.flags);
     vehicle.H_0 = state.H_0;
     vehicle.E_0 = state.E_0;
+    words = load_memory(vehicle, words);
     if (vehicle.wheels != nullptr) {
       for (SpinningWheel<double>& spinning : vehicle.wheels->spinning) {
         spinning.h = saved.wheel_momenta[wheel++];

@@ -277,6 +277,12 @@ namespace {
 void set(TorqueInterval<double>& interval, const VerdictRecord& v) noexcept {
   interval = {v.start_ns, v.end_ns, {v.value[0], v.value[1], v.value[2]}};
 }
+void set(DipoleInterval<double>& interval, const VerdictRecord& v) noexcept {
+  interval = {v.start_ns, v.end_ns, {v.value[0], v.value[1], v.value[2]}};
+}
+void set(OnInterval& interval, const VerdictRecord& v) noexcept {
+  interval = {v.start_ns, v.end_ns};
+}
 void set(MotorInterval<double>& interval, const VerdictRecord& v) noexcept {
   interval = {v.start_ns, v.end_ns, {v.quantity == Quantity::wheel_speed, v.value[0]}};
 }

@@ -149,7 +149,7 @@ struct PointingRecord {
   std::array<double, 3> velocity_I_m_s{};
   std::array<double, 4> q_OB{};                  ///< body to orbital frame: w, x, y, z
   std::array<double, 3> omega_B_to_O_B_rad_s{};  ///< of B relative to O, in B
-  std::array<double, 3> error_B_rad{};           ///< rotation vector from the target to the body, in B
+  std::array<double, 3> error_B_rad{};  ///< rotation vector from the target to the body, in B
 };
 
 /// One spacecraft in the fleet snapshot.

@@ -39,6 +39,7 @@ inline std::uint64_t digest_of(const std::vector<Vehicle>& vehicles) noexcept {
         digest = digest_with_all(digest, spinning.h);
       }
     }
+    for_each_memory(vehicle, [&](const auto& record) { digest = digest_with_all(digest, record); });
   }
   return digest;
 }

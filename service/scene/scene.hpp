@@ -106,7 +106,7 @@ struct Spacecraft {
   std::vector<Actuator> actuators;
   std::vector<NamedWheel> wheels;
   std::optional<PointingTarget> target;  ///< none: no error is told
-  std::optional<Orbit<double>> orbit;  ///< none: none is modelled
+  std::optional<Orbit<double>> orbit;    ///< none: none is modelled
 };
 
 /// Publication periods in whole steps; 0: not published.
@@ -116,7 +116,7 @@ struct Telemetry {
   std::uint64_t fleet_every = 0;
   std::vector<std::uint32_t>
       watched;                    ///< spacecraft with AttitudeState and MomentumState of their own
-  std::uint64_t wheel_every = 0;     ///< WheelState of theirs
+  std::uint64_t wheel_every = 0;  ///< WheelState of theirs
   std::uint64_t pointing_every = 0;  ///< PointingState of those with an orbit or a target
 };
 

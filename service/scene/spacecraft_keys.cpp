@@ -7,6 +7,7 @@
 
 #include "adstar/bodies/rigid_body.hpp"
 #include "adstar/integrators/guard.hpp"
+#include "service/scene/facet_keys.hpp"
 #include "service/scene/inertia.hpp"
 #include "service/scene/orbit_keys.hpp"
 #include "service/scene/sections.hpp"
@@ -93,8 +94,8 @@ std::optional<PointingTarget> read_target(const Value& value, bool has_orbit) {
   }
   Keys keys(value, "frame = \"orbital\" in [spacecraft.pointing]");
   constexpr std::array<std::string_view, 2> kFrames{"orbital", "inertial"};
-  const Value frame_value =
-      keys.required("frame", {"one of orbital, inertial", has_orbit ? "\"orbital\"" : "\"inertial\""});
+  const Value frame_value = keys.required(
+      "frame", {"one of orbital, inertial", has_orbit ? "\"orbital\"" : "\"inertial\""});
   const auto frame = read_choice(frame_value, kFrames);
   bool drawn = false;
   const Value attitude_value = keys.optional("attitude_body_to_frame");
@@ -167,6 +168,8 @@ Plan read_plan(Keys& keys, TorqueContext context) {
   plan.orbit = read_orbit(
       orbit, {context.scene_file, context.tables, context.earth ? &context.earth->epoch : nullptr});
   context.has_orbit = static_cast<bool>(orbit);
+  context.orbit = &plan.orbit;
+  context.facets = read_facets(keys);
   plan.target = read_target(keys.optional("pointing"), context.has_orbit);
   plan.torques = read_torques(keys.optional("torque"), context);
   for (const TorquePlan& torque : plan.torques) {
@@ -253,12 +256,12 @@ Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertia
   spacecraft.torques.reserve(plan.torques.size());
   for (const TorquePlan& torque : plan.torques) {
     if (torque.actuator) {
-      const Vec3<double> limit = torque.actuator->max_torque_n_m.value(draws);
-      spacecraft.actuators.push_back({torque.actuator->name, spacecraft.torques.size(), limit});
+      const ActuatorPlan& plan_of = *torque.actuator;
+      spacecraft.actuators.push_back({plan_of.name, plan_of.kind, spacecraft.torques.size(),
+                                      plan_of.limit.value(draws), 0, plan_of.least_on_ns});
     }
     spacecraft.torques.push_back(torque.make(draws));
     if (auto* const gravity = std::get_if<GravityGradient<double>>(&spacecraft.torques.back())) {
-      gravity->orbit = *plan.orbit;
       gravity->act_on(body);
     }
   }

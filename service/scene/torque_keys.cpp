@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "service/scene/nearest.hpp"
+#include "service/scene/space_torque_keys.hpp"
 #include "service/scene/table_file.hpp"
 
 namespace adstar::scene {
@@ -109,6 +110,8 @@ TorquePlan read_table(Keys& keys, const TorqueContext& context) {
           false};
 }
 
+}  // namespace
+
 bool refuse_negative(const Value& value, std::string_view expected) {
   bool good = true;
   const auto check = [&](const Value& limits) {
@@ -128,6 +131,8 @@ bool refuse_negative(const Value& value, std::string_view expected) {
   return good;
 }
 
+namespace {
+
 TorquePlan read_commanded(Keys& keys, const TorqueContext&) {
   const Value name_value = keys.optional("name");
   const auto name =
@@ -141,8 +146,12 @@ TorquePlan read_commanded(Keys& keys, const TorqueContext&) {
   if (!name || !frame || !positive) {
     return {};
   }
-  ActuatorPlan actuator{*name, name_value ? name_value.node().place : keys.place(),
-                        keys.path() + ".name", *limit};
+  ActuatorPlan actuator{*name,
+                        name_value ? name_value.node().place : keys.place(),
+                        keys.path() + ".name",
+                        *limit,
+                        ActuatorKind::torque,
+                        0};
   return {[frame = frame_at(*frame)](Draws&) -> Torque<double> {
             Commanded<double> commanded;
             commanded.frame = frame;
@@ -165,17 +174,6 @@ TorquePlan read_damping(Keys& keys, const TorqueContext&) {
           std::nullopt, coefficient->drawn};
 }
 
-/// The orbit and the body are the spacecraft's: make_spacecraft() gives it both.
-TorquePlan read_gravity_gradient(Keys& keys, const TorqueContext& context) {
-  if (!context.has_orbit) {
-    keys.complaints().add(keys.place(), keys.path() + ".model", "\"gravity_gradient\"",
-                          "an orbit of the spacecraft beside it",
-                          "[spacecraft.orbit] with semi_major_axis_m = 6.9e6");
-    return {};
-  }
-  return {[](Draws&) -> Torque<double> { return GravityGradient<double>{}; }, std::nullopt, false};
-}
-
 struct Model {
   std::string_view name;
   TorquePlan (*read)(Keys&, const TorqueContext&);
@@ -186,7 +184,12 @@ constexpr Model kModels[] = {{Constant<double>::kName, read_constant},
                              {Table<double>::kName, read_table},
                              {Commanded<double>::kName, read_commanded},
                              {Damping<double>::kName, read_damping},
-                             {GravityGradient<double>::kName, read_gravity_gradient}};
+                             {GravityGradient<double>::kName, read_gravity_gradient},
+                             {ResidualDipole<double>::kName, read_residual_dipole},
+                             {Magnetorquer<double>::kName, read_magnetorquer},
+                             {Aerodynamic<double>::kName, read_aerodynamic},
+                             {SolarPressure<double>::kName, read_solar_pressure},
+                             {Thruster<double>::kName, read_thruster}};
 static_assert(std::size(kModels) == std::variant_size_v<Torque<double>>,
               "every model of adstar/torques/all.hpp has its keys here");
 

@@ -17,7 +17,9 @@ struct ActuatorPlan {
   std::string name;
   Place name_place;
   std::string name_path;
-  RangedVector max_torque_n_m;
+  RangedVector limit;  ///< as Actuator::limit
+  ActuatorKind kind = ActuatorKind::torque;
+  std::int64_t least_on_ns = 0;
 };
 
 struct TorquePlan {
@@ -29,8 +31,10 @@ struct TorquePlan {
 struct TorqueContext {
   const std::filesystem::path& scene_file;
   Tables tables;
-  const Earth* earth = nullptr;  ///< null: the scene has no epoch
-  bool has_orbit = false;        ///< the spacecraft names one
+  const Earth* earth = nullptr;                 ///< null: the scene has no epoch
+  bool has_orbit = false;                       ///< the spacecraft names one,
+  const std::optional<Orbit<double>>* orbit{};  ///< which is none when it was refused
+  Facets<double> facets{};                      ///< null: the spacecraft names none
 };
 
 /// The models of one spacecraft; `value` is its "torque", which may be absent.

@@ -22,13 +22,92 @@ Table<Wide> widened(const Table<double>& m) {
   return wide;
 }
 Damping<Wide> widened(const Damping<double>& m) { return {widened(m.coefficient_n_m_s_rad)}; }
+KeplerOrbit<Wide> widened(const KeplerOrbit<double>& o) {
+  return {o.semi_major_axis_m, o.eccentricity, o.mean_motion_rad_s, o.mean_anomaly_rad,
+          o.gravity_m3_s2,     widened(o.P),   widened(o.Q)};
+}
+SecularOrbit<Wide> widened(const SecularOrbit<double>& o) {
+  const OrbitElements<double>& e = o.at_start;
+  return {{e.semi_major_axis_m, e.eccentricity, e.inclination_rad, e.right_ascension_rad,
+           e.argument_of_periapsis_rad, e.mean_anomaly_rad, e.gravity_m3_s2},
+          o.node_rate_rad_s,
+          o.periapsis_rate_rad_s,
+          o.anomaly_rate_rad_s,
+          {o.tilt.sin, o.tilt.cos}};
+}
+FixedPosition<Wide> widened(const FixedPosition<double>& o) {
+  return {{widened(o.position.direction_I), o.position.distance_m}, o.gravity_m3_s2};
+}
+std::shared_ptr<const Ephemeris<Wide>> widened(const std::shared_ptr<const Ephemeris<double>>& o) {
+  Ephemeris<Wide> wide;
+  for (const EphemerisRow<double>& row : o->rows) {
+    wide.rows.push_back({row.t_s, widened(row.r_I), widened(row.v_I)});
+  }
+  wide.method = o->method;
+  wide.degree = o->degree;
+  wide.gravity_m3_s2 = o->gravity_m3_s2;
+  wide.least_distance_m = o->least_distance_m;
+  wide.greatest_speed_m_s = o->greatest_speed_m_s;
+  return std::make_shared<const Ephemeris<Wide>>(std::move(wide));
+}
+Orbit<Wide> widened(const Orbit<double>& orbit) {
+  return std::visit([](const auto& o) -> Orbit<Wide> { return widened(o); }, orbit);
+}
 GravityGradient<Wide> widened(const GravityGradient<double>& m) {
-  const KeplerOrbit<double>& o = m.orbit;
   const Sym3<double>& J = m.inertia_B;
-  return {{o.semi_major_axis_m, o.eccentricity, o.mean_motion_rad_s, o.mean_anomaly_rad,
-           o.gravity_m3_s2, widened(o.P), widened(o.Q)},
-          {J.xx, J.yy, J.zz, J.xy, J.xz, J.yz},
-          m.spread_kg_m2};
+  return {widened(m.orbit), {J.xx, J.yy, J.zz, J.xy, J.xz, J.yz}, m.spread_kg_m2};
+}
+EarthRotation<Wide> widened(const EarthRotation<double>& r) {
+  return {widened(r.Q_x), widened(r.Q_y), widened(r.Q_z), r.angle_rad, r.rate_rad_s};
+}
+FieldOnOrbit<Wide> widened(const FieldOnOrbit<double>& f) {
+  MagneticField<Wide> field;
+  field.rotation = widened(f.field.rotation);
+  field.dipole = {widened(f.field.dipole.g_T)};
+  if (f.field.harmonics) {
+    field.harmonics = std::make_shared<const HarmonicField<Wide>>(*f.field.harmonics);
+  }
+  return {widened(f.orbit), field};
+}
+ResidualDipole<Wide> widened(const ResidualDipole<double>& m) {
+  return {widened(m.dipole_B_A_m2), std::make_shared<const FieldOnOrbit<Wide>>(widened(*m.field))};
+}
+Facets<Wide> widened(const Facets<double>& facets) {
+  std::vector<Facet<Wide>> wide;
+  for (const Facet<double>& f : *facets) {
+    wide.push_back({f.area_m2, widened(f.normal_B), widened(f.centre_B_m), f.drag_coefficient,
+                    f.specular, f.diffuse});
+  }
+  return make_facets(std::move(wide));
+}
+Aerodynamic<Wide> widened(const Aerodynamic<double>& m) {
+  return {widened(m.orbit), widened(m.rotation), widened(m.facets), m.density_factor};
+}
+SolarPressure<Wide> widened(const SolarPressure<double>& m) {
+  return {widened(m.orbit),  {m.sun.days_since_J2000_at_start},
+          widened(m.facets), m.shadow,
+          m.seasonal,        m.pressure_N_m2};
+}
+/// Nobody commands here, but a schedule does.
+Thruster<Wide> widened(const Thruster<double>& m) {
+  Thruster<Wide> wide;
+  wide.torque_n_m = widened(m.torque_n_m);
+  wide.minimum_on_ns = m.minimum_on_ns;
+  wide.schedule = m.schedule;
+  return wide;
+}
+Magnetorquer<Wide> widened(const Magnetorquer<double>& m) {
+  Coils<Wide> coils;
+  for (std::size_t i = 0; i < coils.axes_B.size(); ++i) {
+    coils.axes_B[i] = widened(m.coils->axes_B[i]);
+  }
+  coils.limit_A_m2 = widened(m.coils->limit_A_m2);
+  coils.step_A_m2 = widened(m.coils->step_A_m2);
+  coils.lag_s = m.coils->lag_s;
+  coils.field = widened(m.coils->field);
+  Magnetorquer<Wide> wide;
+  wide.coils = std::make_shared<const Coils<Wide>>(std::move(coils));
+  return wide;
 }
 /// Nobody commands here.
 Commanded<Wide> widened(const Commanded<double>& m) {

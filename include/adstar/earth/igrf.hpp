@@ -98,6 +98,19 @@ class HarmonicField {
     }
   }
 
+  /// The same numbers in another scalar.
+  template <class U>
+  explicit HarmonicField(const HarmonicField<U>& other) : degree_(other.degree_) {
+    const auto in_T = [](const Vec3<U>& v) { return Vec3<T>{T(v.x), T(v.y), T(v.z)}; };
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      const auto& from = other.terms_[i];
+      terms_[i] = {in_T(from.of_V), in_T(from.of_W), T(from.up), T(from.down)};
+    }
+    for (std::size_t n = 0; n < strength_T_.size(); ++n) {
+      strength_T_[n] = T(other.strength_T_[n]);
+    }
+  }
+
   int degree() const { return degree_; }
 
   /// In E [T], of a direction in E and a distance.
@@ -143,6 +156,9 @@ class HarmonicField {
   }
 
  private:
+  template <class U>
+  friend class HarmonicField;
+
   /// What V_nm and W_nm bring to B, and how they come from those before.
   struct Term {
     Vec3<T> of_V, of_W;
