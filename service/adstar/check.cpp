@@ -8,6 +8,7 @@
 #include "service/adstar/output.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
+#include "service/report/cost_report.hpp"
 #include "service/report/scene_report.hpp"
 
 namespace adstar::cli {
@@ -21,7 +22,8 @@ Verb add_check(CLI::App& program) {
   return {verb, [file] {
             const scene::Scene scene = scene::load(*file);
             Output output = Output::to_stdout();
-            output.buffer() = fmt::format("{}: good\n\n{}", *file, report::scene_report(scene));
+            output.buffer() = fmt::format("{}: good\n\n{}{}", *file, report::scene_report(scene),
+                                          report::cost_report(scene));
             output.flush();
             return static_cast<int>(kDone);
           }};

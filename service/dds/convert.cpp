@@ -1,6 +1,7 @@
 #include "service/dds/convert.hpp"
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace adstar::dds {

@@ -175,23 +175,49 @@ std::string dds_report(const scene::Scene& scene) {
   return text;
 }
 
+/// The models that no spacecraft of the scene names.
 std::string left_out(const scene::Scene& scene) {
   const auto any = [&](const auto& has) {
     return std::any_of(scene.spacecraft.begin(), scene.spacecraft.end(), has);
   };
-  const bool orbit = any([](const scene::Spacecraft& craft) { return craft.orbit.has_value(); });
-  const bool gravity = any([](const scene::Spacecraft& craft) {
-    return std::any_of(craft.torques.begin(), craft.torques.end(), [](const auto& torque) {
-      return std::holds_alternative<GravityGradient<double>>(torque);
+  const auto names = [&](const auto& is_one) {
+    return any([&](const scene::Spacecraft& craft) {
+      return std::any_of(craft.torques.begin(), craft.torques.end(), is_one);
     });
-  });
-  const bool wheels = scene::first_with_wheels(scene.spacecraft) != nullptr;
-  return fmt::format(
-      "not modelled\n"
-      "  {}{}magnetic, aerodynamic and solar-radiation torque,\n"
-      "  {}flexible bodies, fuel slosh\n",
-      orbit ? "translation, " : "orbit and translation, ", gravity ? "" : "gravity gradient, ",
-      wheels ? "" : "reaction wheels, ");
+  };
+  std::vector<std::string> absent;
+  if (!any([](const scene::Spacecraft& craft) { return craft.orbit.has_value(); })) {
+    absent.emplace_back("orbit");
+  }
+  absent.emplace_back("translation");
+  const auto list = [&]<class Model>(const char* what) {
+    if (!names([](const Torque<double>& t) { return std::holds_alternative<Model>(t); })) {
+      absent.emplace_back(what);
+    }
+  };
+  list.operator()<GravityGradient<double>>("gravity gradient");
+  list.operator()<ResidualDipole<double>>("residual dipole");
+  list.operator()<Magnetorquer<double>>("magnetorquers");
+  list.operator()<Aerodynamic<double>>("aerodynamic torque");
+  list.operator()<SolarPressure<double>>("solar-radiation torque");
+  list.operator()<Thruster<double>>("thrusters");
+  if (scene::first_with_wheels(scene.spacecraft) == nullptr) {
+    absent.emplace_back("wheels");
+  }
+  absent.emplace_back("flexible bodies");
+  absent.emplace_back("fuel slosh");
+  std::string text = "not modelled\n";
+  std::string line = " ";
+  constexpr std::size_t kWidth = 100;
+  for (std::size_t i = 0; i < absent.size(); ++i) {
+    const std::string word = " " + absent[i] + (i + 1 < absent.size() ? "," : "");
+    if (line.size() + word.size() > kWidth) {
+      text += line + "\n";
+      line = " ";
+    }
+    line += word;
+  }
+  return text + line + "\n";
 }
 
 }  // namespace

@@ -92,6 +92,33 @@ inline scene::Spacecraft with_wheels(scene::Spacecraft craft) {
   return craft;
 }
 
+/// Gives it an orbit in the Earth's field, lagging coils called "coils" and a thruster called "jet".
+inline scene::Spacecraft in_space(scene::Spacecraft craft) {
+  FieldOnOrbit<double> field;
+  field.orbit = make_orbit<double>({6.9e6, 0.01, 1.2, 0.3, 0.2, 0.1});
+  Coils<double> coils;
+  coils.limit_A_m2 = {20, 20, 20};
+  coils.step_A_m2 = {0.01, 0.01, 0.01};
+  coils.lag_s = 0.03;
+  coils.field = field;
+  craft.orbit = field.orbit;
+  craft.target = scene::PointingTarget{true, {}};
+  Magnetorquer<double> magnetorquer;
+  magnetorquer.coils = std::make_shared<const Coils<double>>(coils);
+  craft.actuators.push_back(
+      {"coils", scene::ActuatorKind::magnetorquer, craft.torques.size(), {20, 20, 20}});
+  craft.torques.emplace_back(magnetorquer);
+  Thruster<double> jet;
+  jet.torque_n_m = {0, 0.05, -0.02};
+  jet.minimum_on_ns = 15 * kMs;
+  craft.actuators.push_back(
+      {"jet", scene::ActuatorKind::thruster, craft.torques.size(), {1, 0, 0}, 0, 15 * kMs});
+  craft.torques.emplace_back(jet);
+  craft.torques.emplace_back(ResidualDipole<double>{
+      {0.1, -0.2, 0.3}, std::make_shared<const FieldOnOrbit<double>>(field)});
+  return craft;
+}
+
 /// A final verdict ends a command's story; accepted alone does not.
 inline bool is_final(runtime::Verdict verdict) { return verdict != runtime::Verdict::accepted; }
 

@@ -21,7 +21,8 @@ namespace adstar::test {
 inline scene::Scene recorded_scene() {
   scene::Scene scene;
   scene.simulation.step_ns = 10 * kMs;
-  scene.spacecraft = {make_craft(2, Frame::inertial), with_wheels(make_craft(1, Frame::body))};
+  scene.spacecraft = {make_craft(2, Frame::inertial), with_wheels(make_craft(1, Frame::body)),
+                      in_space(make_craft(0))};
   return scene;
 }
 
@@ -39,7 +40,7 @@ inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
     runtime::CommandRecord command;
     command.commander = {seed, static_cast<std::uint64_t>(between(1, 3))};
     command.sequence = beat + 1 - static_cast<std::uint64_t>(between(0, 1));
-    command.spacecraft = static_cast<std::uint32_t>(between(0, 1));
+    command.spacecraft = static_cast<std::uint32_t>(between(0, 2));
     command.actuator = static_cast<std::uint32_t>(between(0, 1));
     const bool wheel = command.spacecraft == 1 && command.actuator == 1;
     command.priority = static_cast<std::int32_t>(between(0, 8) / 4);
@@ -50,6 +51,11 @@ inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
     if (wheel) {
       command.quantity = static_cast<runtime::Quantity>(between(0, 1));
       command.value = {command.quantity == runtime::Quantity::wheel_speed ? 10.0 : 0.05, 0, 0};
+    }
+    if (command.spacecraft == 2) {
+      const bool jet = command.actuator == 1;
+      command.quantity = jet ? runtime::Quantity::thrust : runtime::Quantity::dipole;
+      command.value = {jet ? 1.0 : 0.1 * static_cast<double>(between(-99, 99)), 0, 0};
     }
     commands.push_back(command);
   }

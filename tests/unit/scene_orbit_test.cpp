@@ -12,7 +12,8 @@ namespace {
 const std::string kGravity = "[[spacecraft.torque]]\nmodel = \"gravity_gradient\"\n";
 
 KeplerOrbit<double> orbit_of(const std::string& lines) {
-  return *parse(in_spacecraft("[spacecraft.orbit]\n" + lines), "scene.toml").spacecraft[0].orbit;
+  const Scene scene = parse(in_spacecraft("[spacecraft.orbit]\n" + lines), "scene.toml");
+  return std::get<KeplerOrbit<double>>(*scene.spacecraft[0].orbit);
 }
 
 TEST(SceneOrbit, is_not_modelled_unless_named) {

@@ -1,0 +1,130 @@
+#include "service/report/cost_report.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "service/report/numbers.hpp"
+#include "service/report/torque_estimate.hpp"
+#include "service/runtime/fleet.hpp"
+
+namespace adstar::report {
+namespace {
+
+/// Nanoseconds a step of it: the median of several stretches.
+double step_cost_ns(const scene::Spacecraft& craft, const scene::Simulation& simulation) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kStretches = 11;
+  constexpr auto kStretch = std::chrono::milliseconds(2);
+  runtime::Fleet fleet({craft}, simulation.scheme, simulation.limits, runtime::Lanewise::alone);
+  std::vector<double> costs;
+  std::int64_t t_ns = 0;
+  for (int i = 0; i < kStretches; ++i) {
+    int steps = 0;
+    const auto begun = Clock::now();
+    auto now = begun;
+    for (; now - begun < kStretch; now = Clock::now()) {
+      for (int k = 0; k < 64; ++k, ++steps, t_ns += simulation.step_ns) {
+        fleet.step(t_ns, simulation.step_ns);
+      }
+    }
+    costs.push_back(std::chrono::duration<double, std::nano>(now - begun).count() / steps);
+  }
+  std::nth_element(costs.begin(), costs.begin() + kStretches / 2, costs.end());
+  return costs[kStretches / 2];
+}
+
+scene::Spacecraft without_models(scene::Spacecraft craft) {
+  craft.torques.clear();
+  craft.wheels.clear();
+  craft.actuators.clear();
+  if (craft.initial.H_I.value() == Vec3<double>{}) {
+    const RigidBody<double> body(craft.inertia_body_kg_m2);
+    craft.initial = make_state(craft.initial.q_IB, body.momentum({0.01, 0.01, 0.01}));
+  }
+  return craft;
+}
+
+std::string kind_of(const scene::Spacecraft& craft) {
+  std::string kind;
+  for (const Torque<double>& torque : craft.torques) {
+    kind += std::visit([](const auto& model) { return std::string(model.kName) + " "; }, torque);
+  }
+  return kind + std::to_string(craft.wheels.size()) + (craft.orbit ? " orbit" : "");
+}
+
+std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& simulation) {
+  const scene::Spacecraft bare = without_models(craft);
+  const double base = step_cost_ns(bare, simulation);
+  std::string text = fmt::format("    {:<20} {:>7.0f} ns\n", "rigid body", base);
+  for (const Torque<double>& torque : craft.torques) {
+    scene::Spacecraft one = bare;
+    one.torques.push_back(torque);
+    const double cost = step_cost_ns(one, simulation) - base;
+    text += fmt::format("    {:<20} {:>+7.0f} ns\n",
+                        std::visit([](const auto& model) { return model.kName; }, torque), cost);
+  }
+  if (!craft.wheels.empty()) {
+    scene::Spacecraft turning = bare;
+    turning.wheels = craft.wheels;
+    turning.initial = craft.initial;
+    text += fmt::format("    {:<20} {:>+7.0f} ns\n",
+                        craft.wheels.size() == 1
+                            ? std::string("wheel")
+                            : fmt::format("{} wheels", counted(craft.wheels.size())),
+                        step_cost_ns(turning, simulation) - base);
+  }
+  if (craft.torques.size() + (craft.wheels.empty() ? 0 : 1) > 1) {
+    text +=
+        fmt::format("    {:<20} {:>7.0f} ns\n", "all together", step_cost_ns(craft, simulation));
+  }
+  return text;
+}
+
+std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>& accuracy) {
+  if (!estimate.torque_n_m) {
+    return "not estimable without an orbit";
+  }
+  std::string text = fmt::format("{} {:.0e} N m, turns it by {} {:.0e} rad",
+                                 estimate.modelled ? "at most" : "about", *estimate.torque_n_m,
+                                 estimate.modelled ? "at most" : "about", estimate.turn_rad);
+  if (accuracy && estimate.modelled && estimate.turn_rad < *accuracy) {
+    text += fmt::format(": WARNING, below the {:.0e} rad asked for; leave it out", *accuracy);
+  } else if (accuracy && !estimate.modelled && estimate.turn_rad > *accuracy) {
+    text += fmt::format(": WARNING, above the {:.0e} rad asked for; name it", *accuracy);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string cost_report(const scene::Scene& scene) {
+  constexpr std::size_t kMostKinds = 5;
+  const scene::Simulation& simulation = scene.simulation;
+  std::string text =
+      "cost of a step, measured here (each model alone on the rigid body; median of 11)\n";
+  std::string worth;
+  std::set<std::string> kinds;
+  for (const scene::Spacecraft& craft : scene.spacecraft) {
+    if (kinds.size() == kMostKinds || !kinds.insert(kind_of(craft)).second) {
+      continue;
+    }
+    text += fmt::format("  '{}'\n", craft.name) + costs_of(craft, simulation);
+    const double horizon = horizon_of(simulation, craft);
+    worth += fmt::format("  '{}', over {} s\n", craft.name, short_number(horizon));
+    for (const TorqueEstimate& estimate : estimates_of(craft, horizon)) {
+      worth += fmt::format("    {:<17} {:<12} {}\n", estimate.model,
+                           estimate.modelled ? "modelled" : "left out",
+                           worth_of(estimate, simulation.accuracy_rad));
+    }
+  }
+  return text + "torques of the surroundings, to an order of magnitude" +
+         (simulation.accuracy_rad ? "" : " (simulation.accuracy_rad says what matters)") + "\n" +
+         worth;
+}
+
+}  // namespace adstar::report

@@ -1,0 +1,217 @@
+// The space around in a scene: [earth], the outside, the models and actuators there; what is read, and what is refused.
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include "scene_text.hpp"
+
+namespace adstar::scene {
+namespace {
+
+const std::string kEpoch = "epoch_utc = 2026-01-01T00:00:00Z\n";
+const std::string kOrbit = "[spacecraft.orbit]\nsemi_major_axis_m = 7e6\n";
+const std::string kBox = "[spacecraft.box]\nsize_m = [1, 1, 2]\n";
+
+std::string scene_of(const std::string& spacecraft, const std::string& simulation = kEpoch,
+                     const std::string& sections = "") {
+  return std::string(kSimulation) + simulation + sections + kSpacecraft + spacecraft;
+}
+std::string model(const std::string& name, const std::string& lines = "") {
+  return "[[spacecraft.torque]]\nmodel = \"" + name + "\"\n" + lines;
+}
+Spacecraft read(const std::string& text) { return parse(text, "scene.toml").spacecraft[0]; }
+
+TEST(SceneSpace, names_every_model_of_it_together) {
+  const Spacecraft craft = read(scene_of(
+      kOrbit + kBox + model("gravity_gradient") +
+      model("residual_dipole", "dipole_body_a_m2 = [0, 0, 0.1]\n") + model("aerodynamic") +
+      model("solar_pressure") +
+      model("magnetorquer", "max_dipole_a_m2 = [1, 2, 3]\nlag_s = 0.1\ndipole_step_a_m2 = 0.5\n") +
+      model("thruster",
+            "name = \"jet\"\ntorque_body_n_m = [0.1, 0, 0]\nmin_on_time = \"20ms\"\n")));
+  ASSERT_EQ(craft.torques.size(), 6U);
+  EXPECT_EQ(std::get<Aerodynamic<double>>(craft.torques[2]).facets->size(), 6U);
+  const auto& coils = *std::get<Magnetorquer<double>>(craft.torques[4]).coils;
+  EXPECT_EQ(coils.limit_A_m2, (Vec3<double>{1, 2, 3}));
+  EXPECT_EQ(coils.lag_s, 0.1);
+  EXPECT_EQ(coils.step_A_m2, (Vec3<double>{0.5, 0.5, 0.5}));
+  ASSERT_EQ(craft.actuators.size(), 2U);
+  EXPECT_EQ(craft.actuators[0].name, "coils");
+  EXPECT_EQ(craft.actuators[0].kind, ActuatorKind::magnetorquer);
+  EXPECT_EQ(craft.actuators[0].index, 4U);
+  EXPECT_EQ(craft.actuators[1].kind, ActuatorKind::thruster);
+  EXPECT_EQ(craft.actuators[1].least_on_ns, 20'000'000);
+}
+
+TEST(SceneSpace, a_thruster_with_a_schedule_is_nobodys_to_command) {
+  const Spacecraft craft = read(in_spacecraft(model(
+      "thruster", "torque_body_n_m = [0.1, 0, 0]\non = [[\"0s\", \"1s\"], [\"3s\", \"4s\"]]\n")));
+  EXPECT_TRUE(craft.actuators.empty());
+  const auto& thruster = std::get<Thruster<double>>(craft.torques[0]);
+  ASSERT_TRUE(thruster.schedule);
+  EXPECT_EQ(thruster.schedule->at(1), (OnInterval{3'000'000'000, 4'000'000'000}));
+  EXPECT_NE(refusal(in_spacecraft(model(
+                        "thruster", "torque_body_n_m = [0.1, 0, 0]\non = [[\"2s\", \"1s\"]]\n")))
+                .find("an end after its beginning"),
+            std::string::npos);
+  EXPECT_NE(refusal(in_spacecraft(model("thruster",
+                                        "name = \"jet\"\ntorque_body_n_m = [1, 0, 0]\non = []\n")))
+                .find("a schedule beside a name"),
+            std::string::npos);
+}
+
+/// Greenwich sidereal time at the epoch by the classic series of 1982 (Vallado, 4th ed., eq. 3-47) agrees with the Earth
+/// rotation angle turned by precession to some arc seconds.
+TEST(SceneSpace, the_earth_stands_where_its_sidereal_time_says) {
+  const TaiDate date = *tai_date("2026-01-01T00:00:00", Clock::utc);
+  const EarthRotation<double> earth = earth_rotation(date, 0);
+  const double T = (2461041.5 - 2451545.0) / 36525;
+  double gmst_s = 67310.54841 + (876600.0 * 3600 + 8640184.812866) * T + 0.093104 * T * T;
+  gmst_s = std::fmod(gmst_s, 86400);
+  const double gmst = gmst_s / 240 * M_PI / 180;
+  // The equinox of date lies 1.2812 s a year west along the equator of where J2000's x axis is.
+  const EarthFrame<double> frame = earth.at(0);
+  const Vec3<double> greenwich = frame.x;
+  const double right_ascension = std::atan2(greenwich.y, greenwich.x);
+  const double general_precession = 4612.156534 * T / 3600 * M_PI / 180;  // in right ascension
+  EXPECT_NEAR(std::remainder(right_ascension - (gmst - general_precession), 2 * M_PI), 0, 1e-4);
+  EXPECT_NEAR(norm(earth.Q_x), 1, 1e-15);
+  EXPECT_NEAR(dot(earth.Q_x, earth.Q_z), 0, 1e-15);
+  EXPECT_NEAR(earth.Q_z.x, 2004.191903 * T / 3600 * M_PI / 180, 5e-5);  // the pole's precession
+}
+
+TEST(SceneSpace, dates_of_four_scales_are_one_instant) {
+  const TaiDate utc = *tai_date("2017-01-01T00:00:00Z", Clock::utc);
+  const auto ns = [&](const char* text, Clock clock) {
+    return *nanoseconds_from(utc, *tai_date(text, clock));
+  };
+  EXPECT_EQ(ns("2017-01-01T00:00:37", Clock::tai), 0);
+  EXPECT_EQ(ns("2017-01-01T00:01:09.184", Clock::tt), 0);
+  EXPECT_EQ(ns("2017-01-01T00:00:18", Clock::gps), 0);
+  EXPECT_EQ(ns("2016-366T23:59:60.5", Clock::utc), -500'000'000) << "within the leap second";
+  EXPECT_EQ(ns("2016-12-31T23:59:59.25", Clock::utc), -1'750'000'000);
+  EXPECT_EQ(ns("2018-01-01T00:00:00", Clock::utc), 365 * 86'400'000'000'000);
+  for (const char* const wrong : {"2017-13-01T00:00:00", "2017-366T00:00:00", "2017-01-01 00:00:00",
+                                  "2017-01-01T00:00", "2017-01-01T00:00:00.", ""}) {
+    EXPECT_FALSE(tai_date(wrong, Clock::utc)) << wrong;
+  }
+}
+
+TEST(SceneSpace, a_model_says_what_it_lacks) {
+  const std::string dipole = model("residual_dipole", "dipole_body_a_m2 = [0, 0, 0.1]\n");
+  EXPECT_NE(refusal(scene_of(dipole)).find("an orbit of the spacecraft beside it"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_of(kOrbit + dipole, "")).find("a date in [simulation]: the Earth turns"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_of(kOrbit + model("aerodynamic"))).find("an outside of the spacecraft"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_of(kOrbit + dipole, "epoch_utc = 1971-01-01T00:00:00Z\n"))
+                .find("an epoch from 1990 to 2030"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_of("", "", "[earth]\nmagnetic_degree = 8\n"))
+                .find("the date that [earth] is turned to"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_of(kOrbit + "[spacecraft.box]\nsize_m = [1, 0, 1]\n"))
+                .find("3 lengths above 0 m"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene_of("[spacecraft.pointing]\nframe = \"orbital\"\n"))
+                .find("an orbit of the spacecraft beside it"),
+            std::string::npos);
+}
+
+TEST(SceneSpace, an_orbit_that_j2_turns_is_the_same_from_a_position_and_a_velocity) {
+  const auto orbit_of = [](const std::string& lines) {
+    return std::get<SecularOrbit<double>>(
+        *read(in_spacecraft("[spacecraft.orbit]\nmodel = \"j2\"\n" + lines)).orbit);
+  };
+  const SecularOrbit<double> orbit = orbit_of(
+      "semi_major_axis_m = 7e6\neccentricity = 0.1\ninclination_rad = 1.7\n"
+      "right_ascension_rad = -2\nargument_of_periapsis_rad = 2\nmean_anomaly_rad = 0.5\n");
+  const OrbitMotion<double> at =
+      motion_at(make_orbit<double>({7e6, 0.1, 1.7, -2, 2, 0.5, kEarthGravity_m3_s2}), 0.0);
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "position_inertial_m = [%.17g, %.17g, %.17g]\n"
+                "velocity_inertial_m_s = [%.17g, %.17g, %.17g]\n",
+                at.r_I.x, at.r_I.y, at.r_I.z, at.v_I.x, at.v_I.y, at.v_I.z);
+  const SecularOrbit<double> same = orbit_of(text);
+  EXPECT_NEAR(same.at_start.inclination_rad, 1.7, 1e-14);
+  EXPECT_NEAR(same.at_start.right_ascension_rad, -2, 1e-14);
+  EXPECT_NEAR(same.at_start.argument_of_periapsis_rad, 2, 1e-13);
+  EXPECT_NEAR(same.node_rate_rad_s, orbit.node_rate_rad_s, 1e-20);
+}
+
+class Oem : public ::testing::Test {
+ protected:
+  Oem() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "adstar-oem.XXXXXX").string();
+    directory_ = mkdtemp(pattern.data());
+  }
+  ~Oem() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(directory_, ignored);
+  }
+  std::string scene(const std::string& simulation = kEpoch) const {
+    return scene_of("[spacecraft.orbit]\nmodel = \"oem\"\nfile = \"orbit.oem\"\n", simulation);
+  }
+  void write(const std::string& text) const { std::ofstream(directory_ / "orbit.oem") << text; }
+  std::string refused(const std::string& text) const {
+    write(text);
+    return refusal(scene(), directory_ / "scene.toml");
+  }
+  std::filesystem::path directory_;
+};
+
+const std::string kHead =
+    "CCSDS_OEM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = A\n"
+    "META_START\nOBJECT_NAME = SAT\nCENTER_NAME = EARTH\nREF_FRAME = EME2000\n"
+    "TIME_SYSTEM = UTC\nINTERPOLATION = HERMITE\nINTERPOLATION_DEGREE = 7\nMETA_STOP\n";
+
+TEST_F(Oem, gives_the_orbit_of_its_rows_between_them) {
+  const KeplerOrbit<double> orbit = make_orbit<double>({7e6, 0.01, 1, 0.5, 0.2, 0});
+  std::string text = kHead + "COMMENT one row a minute\n";
+  for (int minute = 0; minute < 20; ++minute) {
+    const OrbitMotion<double> at = motion_at(orbit, 60.0 * minute);
+    char row[300];
+    std::snprintf(row, sizeof row,
+                  "2026-01-01T00:%02d:00.000 %.12f %.12f %.12f %.15f %.15f %.15f\n", minute,
+                  at.r_I.x / 1e3, at.r_I.y / 1e3, at.r_I.z / 1e3, at.v_I.x / 1e3, at.v_I.y / 1e3,
+                  at.v_I.z / 1e3);
+    text += row;
+  }
+  write(text);
+  const Scene read = parse(scene(), directory_ / "scene.toml");
+  const Orbit<double>& given = *read.spacecraft[0].orbit;
+  for (const double t : {0.0, 90.0, 333.3, 1139.0}) {
+    const OrbitMotion<double> a = motion_at(given, t), b = motion_at(orbit, t);
+    EXPECT_LT(norm(a.r_I - b.r_I), 1e-3) << t;
+    EXPECT_LT(norm(a.v_I - b.v_I), 1e-4) << t;
+  }
+}
+
+TEST_F(Oem, refuses_what_is_none_with_the_place) {
+  EXPECT_NE(refused("").find("no CCSDS_OEM_VERS"), std::string::npos);
+  EXPECT_NE(refused("x,y\n").find("orbit.oem:1:1: header: got \"x,y\""), std::string::npos);
+  EXPECT_NE(refused(kHead + "2026-01-01T00:00:00 1 2 3\n").find("orbit.oem:12:1: row: got too few"),
+            std::string::npos);
+  std::string wrong_frame = kHead;
+  wrong_frame.replace(wrong_frame.find("EME2000"), 7, "ITRF");
+  EXPECT_NE(refused(wrong_frame).find("axes that do not turn"), std::string::npos);
+  EXPECT_NE(refused(kHead + "2026-01-01T00:00:00 7000 0 0 0 7 0\n").find("fewer epochs"),
+            std::string::npos);
+  EXPECT_NE(refused(kHead + "2026-01-01T00:01:00 7000 0 0 0 7 0\n2026-01-01T00:00:00 7 0 0 0 7 0\n")
+                .find("an epoch after that of the row before"),
+            std::string::npos);
+  EXPECT_NE(refusal(scene(""), directory_ / "scene.toml").find("an orbit with dates in a scene"),
+            std::string::npos);
+  std::filesystem::remove(directory_ / "orbit.oem");
+  EXPECT_NE(refusal(scene(), directory_ / "scene.toml").find("a CCSDS OEM file"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace adstar::scene
