@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,47 @@ Table<double> table(Frame frame, Interpolation interpolation, AfterEnd after_end
     torque.torque_n_m.push_back({0.002 * k, 0.001 * (3 - k), -0.0007 * k});
   }
   return torque;
+}
+
+/// One of each model of the surroundings, on an orbit of each kind.
+std::vector<Torque<double>> surroundings(const Eigen::Matrix3d& J) {
+  const OrbitElements<double> elements{6.7e6, 0.01, 1.7, 0.4, 0.7, 0.1};
+  const Orbit<double> secular = make_secular_orbit(elements);
+  Ephemeris<double> table;
+  for (int i = 0; i < 200; ++i) {
+    const OrbitMotion<double> m = motion_at(secular, 60.0 * i);
+    table.rows.push_back({60.0 * i, m.r_I, m.v_I});
+  }
+  GravityGradient<double> gravity;
+  gravity.orbit = make_ephemeris(table);
+  gravity.act_on(RigidBody<double>(J));
+  Coils<double> coils;
+  coils.limit_A_m2 = {5, 5, 5};
+  coils.step_A_m2 = {0, 0.3, 0};
+  coils.lag_s = 2;
+  coils.field.orbit = secular;
+  coils.field.field.harmonics = make_igrf(2025.5);
+  Magnetorquer<double> torquer;
+  torquer.coils = std::make_shared<const Coils<double>>(coils);
+  torquer.window[0] = {13, 2'000'000'000'017, {3, -4, 9}};
+  torquer.window[1] = {3'000'000'000'000, 9'000'000'000'000, {-1, 2, -3}};
+  torquer.intervals = 2;
+  Facet<double> like;
+  like.specular = 0.3;
+  like.diffuse = 0.2;
+  Aerodynamic<double> air;
+  air.orbit = secular;
+  air.facets = make_facets(box_facets<double>({0.3, 0.2, 0.1}, {0.02, -0.03, 0.01}, like));
+  SolarPressure<double> sun;
+  sun.orbit = make_orbit(elements);
+  sun.facets = air.facets;
+  sun.sun.days_since_J2000_at_start = 9300;
+  Thruster<double> thruster;
+  thruster.torque_n_m = {1e-5, -2e-5, 1e-5};
+  thruster.schedule = make_on_schedule({{500'000'000'001, 500'000'000'002}}, 777'777'777);
+  return {gravity, ResidualDipole<double>{{0.1, 0.2, -0.1}, {torquer.coils, &torquer.coils->field}},
+          torquer, air,
+          sun,     thruster};
 }
 
 template <class Scheme = CoadjointRk4>
@@ -143,6 +185,7 @@ int main() {
        table(Frame::inertial, Interpolation::linear, AfterEnd::zero),
        Constant<double>{Frame::body, {0.01, -0.02, 0.005}}},
       50'000'000);
+  run("surroundings", full, micro, surroundings(full), 100'000'000);
   run<CoadjointRk4Float>("float stages, free", paper, slow, {});
   run<CoadjointRk4Float>("float stages, free, full tensor, sub-stepped", full, fast, {},
                          100'000'000);

@@ -91,7 +91,7 @@ struct Magnetorquer {
     turn_to(now, target_at(now.until_ns), now.until_ns);
     for (;;) {
       const std::int64_t edge_ns = adstar::next_edge_after(all(), now.until_ns);
-      if (edge_ns == kNever || !(seconds<T>(edge_ns) < t_s)) {
+      if (edge_ns == kNever || t_s < seconds<T>(edge_ns)) {
         break;
       }
       turn_to(now, target_at(edge_ns), edge_ns);
