@@ -12,6 +12,7 @@
 #include "service/adstar/progress_bar.hpp"
 #include "service/adstar/propagate_plan.hpp"
 #include "service/adstar/row.hpp"
+#include "service/adstar/side_rows.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/unresolved.hpp"
 #include "service/adstar/usage.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 struct Options {
   std::string scene;
-  std::string output, wheels;
+  std::string output, wheels, pointing;
   std::size_t threads = 1;
   PropagateRequest request;
 };
@@ -57,35 +58,6 @@ void write_rows(Output& output, const scene::Scene& scene, const runtime::Fleet&
   }
 }
 
-constexpr const char* kWheelColumns =
-    "spacecraft,wheel,step,time_s,speed_rad_s,momentum_n_m_s,motor_torque_n_m,friction_torque_n_"
-    "m\n";
-
-void write_wheels(Output& output, const scene::Scene& scene, const runtime::Fleet& fleet,
-                  std::uint64_t step, std::int64_t time_ns) {
-  for (std::size_t i = 0; i < scene.spacecraft.size(); ++i) {
-    const runtime::Vehicle& vehicle = fleet.vehicles()[i];
-    if (vehicle.wheels == nullptr) {
-      continue;
-    }
-    const Vec3<double> omega_B = runtime::angular_velocity_of(vehicle);
-    for (std::size_t k = 0; k < vehicle.wheels->spinning.size(); ++k) {
-      const runtime::WheelRecord w = runtime::sample(vehicle.wheels->spinning[k], omega_B);
-      std::string& text = output.buffer();
-      fmt::format_to(std::back_inserter(text), "{},{},{},", scene.spacecraft[i].name,
-                     scene.spacecraft[i].wheels[k].name, step);
-      report::append_seconds(text, time_ns);
-      for (const double value :
-           {w.speed_rad_s, w.momentum_n_m_s, w.motor_torque_n_m, w.friction_torque_n_m}) {
-        text += ',';
-        report::append_number(text, value);
-      }
-      text += '\n';
-      output.flush_if_full();
-    }
-  }
-}
-
 /// Nobody commands here: an actuator of the scene is still.
 void say_that_actuators_rest(const scene::Scene& scene) {
   std::size_t count = 0;
@@ -102,7 +74,7 @@ void say_that_actuators_rest(const scene::Scene& scene) {
         count > 1 ? fmt::format(" and {} more", report::counted(count - 1)) : "";
     fmt::print(stderr,
                "adstar propagate: nobody commands {}{} here; to command it, run adstard, and "
-               "`adstar torque` or `adstar wheel`\n",
+               "`adstar torque`, `wheel`, `dipole` or `fire`\n",
                first, more);
   }
 }
@@ -116,7 +88,7 @@ int propagate(const Options& options) {
                        runtime::Lanewise::automatic, options.threads);
   say_that_actuators_rest(scene);
 
-  std::optional<Output> wheels;
+  std::optional<Output> wheels, pointing;
   if (!options.wheels.empty()) {
     if (scene::first_with_wheels(scene.spacecraft) == nullptr) {
       throw Failure(kUsage, "--wheels: the scene has no wheels; leave it out");
@@ -124,10 +96,22 @@ int propagate(const Options& options) {
     wheels.emplace(Output::to_file(options.wheels));
     wheels->buffer() = kWheelColumns;
   }
+  if (!options.pointing.empty()) {
+    if (scene::first_with_reference(scene.spacecraft) == nullptr) {
+      throw Failure(kUsage,
+                    "--pointing: no spacecraft of the scene has an orbit or a target; name one in "
+                    "[spacecraft.pointing], or leave it out");
+    }
+    pointing.emplace(Output::to_file(options.pointing));
+    pointing->buffer() = kPointingColumns;
+  }
   const auto write = [&](std::uint64_t step, std::int64_t time_ns) {
     write_rows(output, scene, fleet, step, time_ns);
     if (wheels) {
       write_wheels(*wheels, scene, fleet, step, time_ns);
+    }
+    if (pointing) {
+      write_pointing(*pointing, scene, fleet, step, time_ns);
     }
   };
   append_csv_header(output.buffer());
@@ -159,6 +143,9 @@ int propagate(const Options& options) {
   if (wheels) {
     wheels->commit();
   }
+  if (pointing) {
+    pointing->commit();
+  }
   if (const std::string warning = unresolved.warning(scene, plan.step_ns); !warning.empty()) {
     fmt::print(stderr, "adstar propagate: {}\n", warning);
   }
@@ -188,6 +175,9 @@ Verb add_propagate(CLI::App& program) {
                    "Write there, whole or not at all (default: stdout)")
       ->type_name("FILE");
   verb->add_option("--wheels", options->wheels, "Write the wheels' rows there, whole or not at all")
+      ->type_name("FILE");
+  verb->add_option("--pointing", options->pointing,
+                   "Write there how they point against orbit and target, whole or not at all")
       ->type_name("FILE");
   verb->footer(
       "Example:\n"

@@ -58,6 +58,13 @@ const Spacecraft* first_with_wheels(const std::vector<Spacecraft>& spacecraft) {
   return found == spacecraft.end() ? nullptr : &*found;
 }
 
+const Spacecraft* first_with_reference(const std::vector<Spacecraft>& spacecraft) {
+  const auto found =
+      std::find_if(spacecraft.begin(), spacecraft.end(),
+                   [](const Spacecraft& craft) { return craft.orbit || craft.target; });
+  return found == spacecraft.end() ? nullptr : &*found;
+}
+
 SceneError::SceneError(const std::vector<std::string>& complaints)
     : std::runtime_error(lines_of(complaints)) {}
 

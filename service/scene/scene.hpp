@@ -177,6 +177,9 @@ std::vector<SpinningWheel<double>> spinning_wheels(const Spacecraft& spacecraft)
 /// The first spacecraft that has wheels; null when none has.
 const Spacecraft* first_with_wheels(const std::vector<Spacecraft>& spacecraft);
 
+/// The first spacecraft that has an orbit or a target; null when none has.
+const Spacecraft* first_with_reference(const std::vector<Spacecraft>& spacecraft);
+
 /// The first spacecraft that names a torque; null when all are free.
 const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft);
 
