@@ -1,14 +1,20 @@
 #pragma once
 // One step of an assembly, over any explicit Runge-Kutta tableau.
 //
-// Within a step, from zero (Terze, Müller, Zlatar, eq. 3 to 7, for SE(3); Iserles, Munthe-Kaas, Nørsett, Zanna 2000):
-//   se3:            xi' = dexpinv(-xi, (omega_B, Rᵀ p/m)),  (R, x) = (R_n, x_n) exp(xi)
-//                   H' = Σ ±(c×F + T) + x×F_ext + τ_ext,    p' = Σ ±F + F_ext
-//   direct_product: psi' = dexpinv(-psi, omega_B), x' = p/m, R = R_n exp(psi)
-//                   H' = Σ ±(lever×F + T) + τ_ext,          p' = Σ ±F + F_ext
-// F, T of each joint from the index-1 system at every stage. The sum over the stages is taken joint by joint
-// and put on b and, negated, on a: the totals are exact for any tableau, to the rounding of compensated sums.
-// Then joints are projected (projection.hpp).
+// Within a step each body is seen from a frame of its own that moves on at the velocity v_n which the body has at its
+// beginning: x = x_n + v_n t + y, p = m v_n + π. Then from zero (Terze, Müller, Zlatar, eq. 3 to 7, for SE(3); Iserles,
+// Munthe-Kaas, Nørsett, Zanna 2000; the moving frame is ours)
+//   se3:            xi' = dexpinv(-xi, (omega_B, Rᵀ π/m)),  (R, y) = (R_n, 0) exp(xi),   π' = F_i,
+//                   K' = (c - x_n - v_n t)×F + T,           Pi_I = Pi_n + K - y×π          (the coadjoint action)
+//   direct_product: psi' = dexpinv(-psi, omega_B),          y' = π/m, R = R_n exp(psi),  π' = F_i
+//                   K' = (c - x)×F + T,                     Pi_I = Pi_n + K
+// F, T of each joint (and loads) from the index-1 system at every stage, F_i the force on body i. About a fixed origin y
+// and π would be as large as x and p, and an error of a stage's x would turn the body by δx×p: the same order, at four
+// times the error on four tumbling bodies. At the end
+//   se3:            H += h Σ b (c×F + T),    p += h Σ b F
+//   direct_product: H += h Σ b K',           p += h Σ b F
+// The sum over the stages is taken joint by joint and put on b and, negated, on a: in se3 both totals are exact
+// for any tableau, to the rounding of compensated sums. Then joints are projected (projection.hpp).
 //
 // How many parts. From the rates at the start, and from springs and dampers:
 //   h |omega| ≤ angle,   h √λ ≤ 1,   h c ≤ decay_limit,   λ, c ≤ 2 max over bodies of Σ k (1/mass seen by k)
@@ -21,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "adstar/integrators/coadjoint.hpp"
 #include "adstar/integrators/guard.hpp"
@@ -115,69 +122,73 @@ FastRates<T> fast_rates(const Assembly<T>& assembly, Workspace<T>& work, const T
   return rates;
 }
 
-/// Bodies at stage s: their motions from the slopes before it.
+/// Σ weights[l] k_l over the stages before `count`, of a member of the slopes.
+template <class T, class Slope, class Weights>
+Vec3<T> weighted(const T& h, const Weights& weights, std::size_t count,
+                 const std::vector<Slope>& slopes, std::size_t stride, std::size_t at,
+                 Vec3<T> Slope::*member) {
+  Vec3<T> sum{};
+  for (std::size_t l = 0; l < count; ++l) {
+    sum = sum + (h * weights[l]) * (slopes[l * stride + at].*member);
+  }
+  return sum;
+}
+
+/// Bodies at stage s: their motions from the slopes before it, and the slope of xi.
 template <class Tableau, class T>
 void move_to_stage(const Assembly<T>& assembly, const AssemblyState<T>& state, Workspace<T>& work,
                    std::size_t s, const T& h, T& farthest) {
-  const auto& a = adstar::detail::kStageWeights<Tableau, T>.a[s];
+  const auto& weights = adstar::detail::kStageWeights<Tableau, T>;
+  const auto& a = weights.a[s];
   const bool se3 = assembly.options().formulation == Formulation::se3;
   const std::size_t bodies = state.bodies.size(), joints = work.joints.size();
-  // Momenta: H and p gather in spins and in the velocities of the motions.
+  // π and K gather where velocities and spins will be.
   for (std::size_t i = 0; i < bodies; ++i) {
-    Vec3<T> p = state.bodies[i].p_I.value(), H = state.bodies[i].H_I.value();
-    for (std::size_t l = 0; l < s; ++l) {
-      const LoadSlope<T>& slope = work.load_slopes[l * bodies + i];
-      const T weight = h * a[l];
-      p = p + weight * slope.force;
-      H = H + weight * slope.moment;
-    }
-    work.motions[i].v_I = p;
-    work.spins[i] = H;
+    const auto sum = [&](Vec3<T> LoadSlope<T>::*member) {
+      return weighted(h, a, s, work.load_slopes, bodies, i, member);
+    };
+    work.motions[i].v_I = sum(&LoadSlope<T>::force);
+    work.spins[i] = sum(&LoadSlope<T>::moment);
   }
   for (std::size_t j = 0; j < joints; ++j) {
-    JointSlope<T> sum{};
-    for (std::size_t l = 0; l < s; ++l) {
-      const JointSlope<T>& slope = work.joint_slopes[l * joints + j];
-      const T weight = h * a[l];
-      sum.force = sum.force + weight * slope.force;
-      sum.moment_a = sum.moment_a + weight * slope.moment_a;
-      sum.moment_b = sum.moment_b + weight * slope.moment_b;
-    }
+    const auto sum = [&](Vec3<T> JointSlope<T>::*member) {
+      return weighted(h, a, s, work.joint_slopes, joints, j, member);
+    };
     const Joint<T>& joint = assembly.joints()[j];
+    const Vec3<T> force = sum(&JointSlope<T>::force);
     if (joint.body_b != kGround) {
       const auto b = static_cast<std::size_t>(joint.body_b);
-      work.motions[b].v_I = work.motions[b].v_I + sum.force;
-      work.spins[b] = work.spins[b] + sum.moment_b;
+      work.motions[b].v_I = work.motions[b].v_I + force;
+      work.spins[b] = work.spins[b] + sum(&JointSlope<T>::moment_b);
     }
     if (joint.body_a != kGround) {
       const auto b = static_cast<std::size_t>(joint.body_a);
-      work.motions[b].v_I = work.motions[b].v_I - sum.force;
-      work.spins[b] = work.spins[b] - sum.moment_a;
+      work.motions[b].v_I = work.motions[b].v_I - force;
+      work.spins[b] = work.spins[b] - sum(&JointSlope<T>::moment_a);
     }
   }
+  const T t = weights.c[s] * h;
   for (std::size_t i = 0; i < bodies; ++i) {
-    Twist<T> xi{};
-    for (std::size_t l = 0; l < s; ++l) {
-      const Twist<T>& slope = work.xi_slopes[l * bodies + i];
-      const T weight = h * a[l];
-      xi.angular = xi.angular + weight * slope.angular;
-      xi.linear = xi.linear + weight * slope.linear;
-    }
-    const Quat<T>& q_n = state.bodies[i].q_IB;
+    const Body<T>& body = assembly.bodies()[i];
+    const Twist<T> xi{weighted(h, a, s, work.xi_slopes, bodies, i, &Twist<T>::angular),
+                      weighted(h, a, s, work.xi_slopes, bodies, i, &Twist<T>::linear)};
     const Rotation<T> turn(xi.angular);
     // A turn of a stage counts half: it may go twice as far as the step.
     farthest = std::max(farthest, T(0.25) * turn.squared_angle());
-    const Quat<T> q = renormalised(q_n * turn.quaternion());
-    const Vec3<T> x = state.bodies[i].x_I.value() +
-                      (se3 ? rotate(q_n, exp_translation(turn, xi.linear)) : xi.linear);
-    const Vec3<T> p = work.motions[i].v_I;
-    work.spins[i] = spin_of(assembly.options().formulation, x, p, work.spins[i]);
-    work.motions[i] = motion_of(assembly.bodies()[i], x, q, p, work.spins[i]);
-    // The slope of xi at this stage, while psi is at hand.
-    const Vec3<T> omega_B = rotate_inverse(q, work.motions[i].omega_I);
+    const Quat<T>& q_n = state.bodies[i].q_IB;
+    BodyMotion<T>& motion = work.motions[i];
+    const Vec3<T> pi = motion.v_I, w = (T(1) / body.mass) * pi;
+    const Vec3<T> y = se3 ? rotate(q_n, exp_translation(turn, xi.linear)) : xi.linear;
+    work.offsets[i] = se3 ? y : Vec3<T>{};
+    work.spins[i] = work.start_spins[i] + (work.spins[i] - cross(work.offsets[i], pi));
+    motion.x_I = state.bodies[i].x_I.value() + (t * work.start_velocities[i] + y);
+    motion.q_IB = renormalised(q_n * turn.quaternion());
+    motion.v_I = work.start_velocities[i] + w;
+    const Vec3<T> omega_B = body.rigid.angular_velocity(rotate_inverse(motion.q_IB, work.spins[i]));
+    motion.omega_I = rotate(motion.q_IB, omega_B);
     work.xi_slopes[s * bodies + i] =
-        se3 ? dexpinv_minus(xi, Twist<T>{omega_B, rotate_inverse(q, work.motions[i].v_I)})
-            : Twist<T>{turn.dexpinv_minus(omega_B), work.motions[i].v_I};
+        se3 ? dexpinv_minus(xi, Twist<T>{omega_B, rotate_inverse(motion.q_IB, w)})
+            : Twist<T>{turn.dexpinv_minus(omega_B), w};
   }
 }
 
@@ -190,35 +201,31 @@ void finish(const Assembly<T>& assembly, AssemblyState<T>& state, Workspace<T>& 
   const std::size_t bodies = state.bodies.size(), joints = work.joints.size();
   constexpr std::size_t kStages = Tableau::kStages;
   for (std::size_t i = 0; i < bodies; ++i) {
-    Twist<T> xi{};
-    LoadSlope<T> impulse{};
-    for (std::size_t l = 0; l < kStages; ++l) {
-      const Twist<T>& slope = work.xi_slopes[l * bodies + i];
-      const LoadSlope<T>& load = work.load_slopes[l * bodies + i];
-      const T weight = h * b[l];
-      xi.angular = xi.angular + weight * slope.angular;
-      xi.linear = xi.linear + weight * slope.linear;
-      impulse.force = impulse.force + weight * load.force;
-      impulse.moment = impulse.moment + weight * load.moment;
-    }
+    const auto sum = [&](const auto& slopes, auto member) {
+      return weighted(h, b, kStages, slopes, bodies, i, member);
+    };
     BodyState<T>& body = state.bodies[i];
-    const Rotation<T> turn(xi.angular);
+    const Rotation<T> turn(sum(work.xi_slopes, &Twist<T>::angular));
+    const Vec3<T> rho = sum(work.xi_slopes, &Twist<T>::linear);
     farthest = std::max(farthest, turn.squared_angle());
-    body.x_I.add(se3 ? rotate(body.q_IB, exp_translation(turn, xi.linear)) : xi.linear);
+    body.x_I.add(h * work.start_velocities[i] +
+                 (se3 ? rotate(body.q_IB, exp_translation(turn, rho)) : rho));
     body.q_IB = renormalised(body.q_IB * turn.quaternion());
-    body.p_I.add(impulse.force);
-    body.H_I.add(impulse.moment);
+    body.p_I.add(sum(work.load_slopes, &LoadSlope<T>::force));
+    body.H_I.add(sum(work.load_slopes, se3 ? &LoadSlope<T>::moment_I : &LoadSlope<T>::moment));
   }
   for (std::size_t j = 0; j < joints; ++j) {
-    JointSlope<T> impulse{};
-    for (std::size_t l = 0; l < kStages; ++l) {
-      const JointSlope<T>& slope = work.joint_slopes[l * joints + j];
-      const T weight = h * b[l];
-      impulse.force = impulse.force + weight * slope.force;
-      impulse.moment_a = impulse.moment_a + weight * slope.moment_a;
-      impulse.moment_b = impulse.moment_b + weight * slope.moment_b;
+    const auto sum = [&](Vec3<T> JointSlope<T>::*member) {
+      return weighted(h, b, kStages, work.joint_slopes, joints, j, member);
+    };
+    const Vec3<T> force = sum(&JointSlope<T>::force);
+    if (se3) {
+      const Vec3<T> moment = sum(&JointSlope<T>::moment_I);
+      push_apart(assembly.joints()[j], force, moment, moment, state);
+    } else {
+      push_apart(assembly.joints()[j], force, sum(&JointSlope<T>::moment_a),
+                 sum(&JointSlope<T>::moment_b), state);
     }
-    push_apart(assembly.joints()[j], impulse, state);
   }
   T done{};
   for (std::size_t l = 0; l < kStages; ++l) {
@@ -227,23 +234,43 @@ void finish(const Assembly<T>& assembly, AssemblyState<T>& state, Workspace<T>& 
   state.work.add(h * done);
 }
 
+/// Of the stage that was just solved: moments about where y = 0 of each body is, and about the origin.
+template <class T>
+void take_slopes(const Assembly<T>& assembly, Workspace<T>& work, std::size_t s) {
+  const std::size_t joints = work.joints.size();
+  const auto lever = [&](int body, const Vec3<T>& from_centre) {
+    return body == kGround ? from_centre
+                           : from_centre + work.offsets[static_cast<std::size_t>(body)];
+  };
+  for (std::size_t j = 0; j < joints; ++j) {
+    const Joint<T>& joint = assembly.joints()[j];
+    const JointMotion<T>& m = work.joints[j];
+    const auto& [force, couple] = work.loads[j];
+    work.joint_slopes[s * joints + j] = {force, cross(lever(joint.body_a, m.s), force) + couple,
+                                         cross(lever(joint.body_b, m.r), force) + couple,
+                                         cross(m.c, force) + couple};
+  }
+}
+
 /// One step of the scheme; the largest squared angle that a body turned, a stage's counted by a quarter.
 template <class Tableau, class T, class Load>
 T step(const Assembly<T>& assembly, Workspace<T>& work, AssemblyState<T>& state, const T& h,
        const std::array<T, 3>* motors, const Load& load, const T& since, int& lost) {
   static_assert(Tableau::kStages <= kMostStages);
   const auto& c = adstar::detail::kStageWeights<Tableau, T>.c;
-  const std::size_t bodies = state.bodies.size(), joints = work.joints.size();
+  const std::size_t bodies = state.bodies.size();
+  read_state(assembly, state, work);
+  for (std::size_t i = 0; i < bodies; ++i) {
+    work.start_velocities[i] = work.motions[i].v_I;
+    work.start_spins[i] = work.spins[i];
+  }
   T farthest{};
   for (std::size_t s = 0; s < static_cast<std::size_t>(Tableau::kStages); ++s) {
     move_to_stage<Tableau>(assembly, state, work, s, h, farthest);
     lost = std::max(
         lost, solve_accelerations(assembly, work, state.coordinates, motors, load, since + c[s] * h,
                                   &work.load_slopes[s * bodies], work.power[s]));
-    for (std::size_t j = 0; j < joints; ++j) {
-      work.joint_slopes[s * joints + j] =
-          slope_of(assembly.options().formulation, work.joints[j], work.loads[j]);
-    }
+    take_slopes(assembly, work, s);
   }
   finish<Tableau>(assembly, state, work, h, farthest);
   return farthest;
@@ -276,7 +303,8 @@ bool finite(const AssemblyState<T>& state) {
 /// null. Never throws, never allocates.
 template <class Tableau, class T, class Load = NoLoad>
 AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, AssemblyState<T>& state,
-                          std::int64_t h_ns, const std::array<T, 3>* motors = nullptr,
+                          std::int64_t h_ns,
+                          std::type_identity_t<const std::array<T, 3>*> motors = nullptr,
                           const Load& load = {}, const AssemblyLimits& limits = {}) noexcept {
   using std::ceil;
   using std::max;

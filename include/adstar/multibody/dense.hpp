@@ -8,15 +8,14 @@
 
 namespace adstar::multibody {
 
-/// A = L Lᵀ in place. A pivot at or below `floor` times its own diagonal is a row that depends on those before:
-/// it is taken out (its 1/L_ii = 0, so that its unknown is 0). Returns how many were.
+/// A = L Lᵀ in place. A pivot at or below `least` (by row; null: zero) is of a row that depends on those
+/// before: it is taken out (its 1/L_ii = 0, so that its unknown is 0). Returns how many were.
 template <class T>
-int factor_cholesky(T* A, int n, int ld, const T& floor) {
+int factor_cholesky(T* A, int n, int ld, const T* least = nullptr) {
   using std::sqrt;
   int dropped = 0;
   for (int i = 0; i < n; ++i) {
     T* const row = A + i * ld;
-    const T diagonal = row[i];
     for (int j = 0; j < i; ++j) {
       const T* const other = A + j * ld;
       T sum = row[j];
@@ -25,11 +24,11 @@ int factor_cholesky(T* A, int n, int ld, const T& floor) {
       }
       row[j] = sum * other[j];
     }
-    T pivot = diagonal;
+    T pivot = row[i];
     for (int k = 0; k < i; ++k) {
       pivot = pivot - row[k] * row[k];
     }
-    if (pivot > floor * diagonal) {
+    if (pivot > (least == nullptr ? T(0) : least[i])) {
       row[i] = T(1) / sqrt(pivot);
     } else {
       row[i] = T(0);

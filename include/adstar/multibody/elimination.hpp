@@ -47,7 +47,7 @@ struct RowPlace {
   friend bool operator==(const RowPlace&, const RowPlace&) = default;
 };
 
-/// A pivot of the border below this share of its diagonal is round-off: the loop is at a dead point.
+/// A pivot of the border below this share of the row's mobility() is round-off: the loop is at a dead point.
 inline constexpr double kBorderFloor = 1e-13;
 
 template <class T>
@@ -64,7 +64,8 @@ class Elimination {
         scratch_(links_.size()),
         answers_(loop_rows_.size() * links_.size()),
         border_(loop_rows_.size() * loop_rows_.size()),
-        mu_(loop_rows_.size()) {
+        mu_(loop_rows_.size()),
+        least_(loop_rows_.size()) {
     for (const Joint<T>& joint : joints) {
       sides_.push_back({joint.body_a, joint.body_b});
       rows_.push_back(shape_of(joint.kind).rows());
@@ -88,7 +89,29 @@ class Elimination {
     }
     make_border();
     const int m = static_cast<int>(loop_rows_.size());
-    return factor_cholesky(border_.data(), m, m, T(kBorderFloor));
+    for (std::size_t r = 0; r < loop_rows_.size(); ++r) {
+      least_[r] = T(kBorderFloor) * mobility(loop_rows_[r], masses);
+    }
+    return factor_cholesky(border_.data(), m, m, least_.data());
+  }
+
+  /// g M⁻¹ gᵀ of a row g of G, as if nothing else held its bodies; their inertia by its trace.
+  T mobility(const RowPlace& place, std::span<const MassBlock<T>> masses) const {
+    const JointJacobian<T>& G = jacobians_[at(place.joint)];
+    const Sides& on = sides_[at(place.joint)];
+    T sum{};
+    const auto add = [&](int body, const T* row) {
+      if (body == kGround) {
+        return;
+      }
+      const MassBlock<T>& own = masses[at(body)];
+      const T moment = (own.J_I.xx + own.J_I.yy) + own.J_I.zz;
+      sum = sum + (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]) / moment +
+            (row[3] * row[3] + row[4] * row[4] + row[5] * row[5]) / own.mass;
+    };
+    add(on.a, G.a.row[place.row]);
+    add(on.b, G.b.row[place.row]);
+    return sum;
   }
 
   /// `f`: forces on the bodies, and then their accelerations; `gamma`, `lambda`: by joint.
@@ -151,7 +174,7 @@ class Elimination {
     for (std::size_t l = links_.size(); l-- > 0;) {
       const TreeLink& link = links_[l];
       Block& own = block(link.body);
-      factor_cholesky(own.L, 6, 6, T(0));
+      factor_cholesky(own.L, 6, 6);
       if (link.joint < 0) {
         continue;
       }
@@ -169,7 +192,7 @@ class Elimination {
           own.LS[6 * i + j] = product(column, own.Y + 6 * j);
         }
       }
-      factor_cholesky(own.LS, n, 6, T(0));
+      factor_cholesky(own.LS, n, 6);
       if (link.parent == kGround) {
         continue;
       }
@@ -308,7 +331,7 @@ class Elimination {
   std::vector<Spatial<T>> scratch_;
   std::vector<Spatial<T>> answers_;  ///< A, by row then body
   std::vector<T> border_;            ///< G A, then its factor
-  std::vector<T> mu_;
+  std::vector<T> mu_, least_;
 };
 
 }  // namespace adstar::multibody

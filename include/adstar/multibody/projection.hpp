@@ -68,31 +68,29 @@ void move_bodies(AssemblyState<T>& state, const Workspace<T>& work) {
   }
 }
 
-/// An impulse, or h times a force: on b, and its opposite on a, in their sums.
+/// On b, and its opposite on a, in their sums; the moments about what H of each body is about.
 template <class T>
-void push_apart(const Joint<T>& joint, const JointSlope<T>& impulse, AssemblyState<T>& state) {
+void push_apart(const Joint<T>& joint, const Vec3<T>& force, const Vec3<T>& moment_a,
+                const Vec3<T>& moment_b, AssemblyState<T>& state) {
   if (joint.body_b != kGround) {
     BodyState<T>& b = state.bodies[static_cast<std::size_t>(joint.body_b)];
-    b.p_I.add(impulse.force);
-    b.H_I.add(impulse.moment_b);
+    b.p_I.add(force);
+    b.H_I.add(moment_b);
   }
   if (joint.body_a != kGround) {
     BodyState<T>& a = state.bodies[static_cast<std::size_t>(joint.body_a)];
-    a.p_I.add(-impulse.force);
-    a.H_I.add(-impulse.moment_a);
+    a.p_I.add(-force);
+    a.H_I.add(-moment_a);
   }
 }
 
-/// The moments of a wrench about what H of each body is about: the origin for both, or their own centres.
 template <class T>
-JointSlope<T> slope_of(Formulation formulation, const JointMotion<T>& m,
-                       const PointWrench<T>& wrench) {
-  if (formulation == Formulation::se3) {
-    const Vec3<T> moment = cross(m.c, wrench.force) + wrench.couple;
-    return {wrench.force, moment, moment};
-  }
-  return {wrench.force, cross(m.s, wrench.force) + wrench.couple,
-          cross(m.r, wrench.force) + wrench.couple};
+void push_apart(const Assembly<T>& assembly, std::size_t joint, const JointMotion<T>& m,
+                const PointWrench<T>& impulse, AssemblyState<T>& state) {
+  const bool se3 = assembly.options().formulation == Formulation::se3;
+  const Vec3<T> moment_a = cross(se3 ? m.c : m.s, impulse.force) + impulse.couple;
+  const Vec3<T> moment_b = cross(se3 ? m.c : m.r, impulse.force) + impulse.couple;
+  push_apart(assembly.joints()[joint], impulse.force, moment_a, moment_b, state);
 }
 
 /// `rounds` of one kind; returns the residual that is left.
@@ -114,9 +112,8 @@ T close(Residual which, const Assembly<T>& assembly, AssemblyState<T>& state, Wo
       continue;
     }
     for (std::size_t j = 0; j < work.joints.size(); ++j) {
-      const PointWrench<T> impulse = constraint_wrench(work.joints[j], work.lambda[j]);
-      push_apart(assembly.joints()[j],
-                 slope_of(assembly.options().formulation, work.joints[j], impulse), state);
+      push_apart(assembly, j, work.joints[j], constraint_wrench(work.joints[j], work.lambda[j]),
+                 state);
     }
   }
 }

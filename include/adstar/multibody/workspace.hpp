@@ -31,14 +31,15 @@ struct LoadStage {
 /// No loads but gravity. Any callable BodyLoad<T>(const LoadStage<T>&) may stand in its place.
 struct NoLoad {};
 
-/// Of one joint at one stage: the force on b, and its moments about what H of a, and of b, is about.
+/// Of one joint at one stage: the force on b, its moments as the stages of a and of b gather them, and about the
+/// origin of I.
 template <class T>
 struct JointSlope {
-  Vec3<T> force, moment_a, moment_b;
+  Vec3<T> force, moment_a, moment_b, moment_I;
 };
 template <class T>
 struct LoadSlope {
-  Vec3<T> force, moment;
+  Vec3<T> force, moment, moment_I;
 };
 
 inline constexpr std::size_t kMostStages = 12;
@@ -49,6 +50,9 @@ struct Workspace {
       : elimination(assembly.topology(), assembly.joints(), assembly.loop_rows()),
         motions(assembly.bodies().size()),
         spins(motions.size()),
+        start_velocities(motions.size()),
+        start_spins(motions.size()),
+        offsets(motions.size()),
         masses(motions.size()),
         accelerations(motions.size()),
         joints(assembly.joints().size()),
@@ -64,7 +68,9 @@ struct Workspace {
 
   Elimination<T> elimination;
   std::vector<BodyMotion<T>> motions;
-  std::vector<Vec3<T>> spins;  ///< Pi_I
+  std::vector<Vec3<T>> spins;                          ///< Pi_I
+  std::vector<Vec3<T>> start_velocities, start_spins;  ///< at the beginning of the step
+  std::vector<Vec3<T>> offsets;  ///< y of advance.hpp, zero in the direct product
   std::vector<MassBlock<T>> masses;
   std::vector<Spatial<T>> accelerations;  ///< forces before solve(), (omega_I', v_I') after
   std::vector<JointMotion<T>> joints;
@@ -183,8 +189,8 @@ int solve_accelerations(const Assembly<T>& assembly, Workspace<T>& work,
       power = power + (dot(moment, motion.omega_I) + dot(push, motion.v_I));
     }
     if (slopes != nullptr) {
-      const bool about_origin = assembly.options().formulation == Formulation::se3;
-      slopes[i] = {force, about_origin ? moment + cross(motion.x_I, force) : moment};
+      slopes[i] = {force, moment + cross(work.offsets[i], force),
+                   moment + cross(motion.x_I, force)};
     }
     const Vec3<T> gyroscopic = moment - cross(motion.omega_I, work.spins[i]);
     work.accelerations[i] = {gyroscopic.x, gyroscopic.y, gyroscopic.z, force.x, force.y, force.z};
@@ -213,7 +219,8 @@ int solve_accelerations(const Assembly<T>& assembly, Workspace<T>& work,
 /// Fills the workspace at the state: accelerations, coordinates, joint loads (constraint and active together).
 template <class T, class Load = NoLoad>
 void observe(const Assembly<T>& assembly, Workspace<T>& work, const AssemblyState<T>& state,
-             const std::array<T, 3>* motors = nullptr, const Load& load = {}) noexcept {
+             std::type_identity_t<const std::array<T, 3>*> motors = nullptr,
+             const Load& load = {}) noexcept {
   detail::read_state(assembly, state, work);
   T power{};
   detail::solve_accelerations(assembly, work, state.coordinates, motors, load, T(0),
