@@ -21,6 +21,7 @@
 #include <string_view>
 
 #include "adstar/bodies/gyrostat.hpp"
+#include "adstar/integrators/stage_weights.hpp"
 #include "adstar/propagator.hpp"
 
 namespace adstar {
@@ -39,26 +40,6 @@ inline bool carries_wheels(std::string_view scheme) {
 }
 
 namespace detail {
-
-/// a and b of a tableau in the scalar at hand.
-template <class Nodes, class T>
-struct StageWeights {
-  static constexpr std::size_t kStages = Nodes::kStages;
-  std::array<std::array<T, kStages>, kStages> a{};
-  std::array<T, kStages> b{};
-
-  constexpr StageWeights() {
-    for (std::size_t i = 0; i < kStages; ++i) {
-      for (std::size_t j = 0; j < kStages; ++j) {
-        a[i][j] = Nodes::a[i][j].template as<T>();
-      }
-      b[i] = Nodes::b[i].template as<T>();
-    }
-  }
-};
-
-template <class Nodes, class T>
-inline const StageWeights<Nodes, T> kStageWeights{};
 
 /// The body as one step of the scheme sees it: J_r, and wheels that spin up from stage to stage.
 template <class Nodes, class T>

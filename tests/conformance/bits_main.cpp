@@ -2,13 +2,17 @@
 // the way. Built for several instruction sets and by another compiler; all must print the same
 // (bits_compare.cmake).
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "adstar/multibody/advance.hpp"
+#include "adstar/multibody/placement.hpp"
 #include "adstar/propagator.hpp"
 
 namespace {
@@ -139,6 +143,54 @@ void run_exact(const char* name, const Eigen::Matrix3d& J) {
               state.q_IB.y, state.q_IB.z);
 }
 
+/// Four bodies on a universal, a spherical and a revolute joint, with springs, a stop and a motor; the last
+/// joint twice, so that a loop closes.
+void run_linked(const char* name, multibody::Formulation formulation) {
+  using namespace multibody;
+  std::vector<BodySpec<double>> bodies(4);
+  std::vector<Joint<double>> joints(4);
+  std::vector<JointStart<double>> starts(4);
+  const JointKind kinds[] = {JointKind::universal, JointKind::spherical, JointKind::revolute,
+                             JointKind::revolute};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto k = static_cast<double>(i);
+    bodies[i].name = std::string(1, static_cast<char>('a' + i));
+    bodies[i].mass_kg = 1 + k;
+    bodies[i].inertia_B = tensor(1.2, 1.0, 1.5, -0.15, 0.08, 0.11);
+    Joint<double>& joint = joints[i];
+    joint.name = bodies[i].name;
+    joint.kind = kinds[i];
+    joint.body_a = i < 3 ? static_cast<int>(i) : 2;
+    joint.body_b = joint.body_a + 1;
+    joint.a = {{0.5, 0.1 * k, 0}, normalised(Quat<double>{1, 0.2, -0.1, 0.3})};
+    joint.b = {{-0.4, 0, 0.1}, {}};
+    joint.laws[0] = {2, 0.3, 0.01, true, -0.8, 0.8, 500, 0.1};
+    starts[i] = {{0.3, -0.2, 0.1}, {0.5, -0.4, 0.2}};
+  }
+  joints[3].a = joints[2].a;
+  bodies[0].omega_B = {0.1, -0.3, 0.2};
+  place<double>(bodies, joints, starts);
+  centre(bodies);
+  const Assembly<double> assembly(bodies, joints, {formulation, {}});
+  Workspace<double> work(assembly);
+  AssemblyState<double> state = make_state(assembly);
+  const std::array<double, 3> motors[4] = {{0.02, -0.01, 0}, {}, {0.01, 0, 0}, {}};
+  Hash hash;
+  std::int64_t parts = 0;
+  for (int n = 0; n < 5'000; ++n) {
+    parts += advance<Rk4>(assembly, work, state, 10'000'000, motors).parts;
+    for (const BodyState<double>& body : state.bodies) {
+      adstar::State<double> one;
+      one.q_IB = body.q_IB;
+      one.H_I = body.H_I;
+      one.impulse_I = body.x_I;
+      hash.add(one);
+    }
+  }
+  std::printf("%s parts %lld hash %016llx\n  W %a\n", name, static_cast<long long>(parts),
+              hash.value(), state.work.value);
+}
+
 void print_sines() {
   Hash hash;
   double x = 1e-9;
@@ -196,5 +248,7 @@ int main() {
                          {body, inertial, commands(Frame::body),
                           table(Frame::inertial, Interpolation::linear, AfterEnd::zero)},
                          50'000'000);
+  run_linked("linked, SE(3)", multibody::Formulation::se3);
+  run_linked("linked, direct product", multibody::Formulation::direct_product);
   return 0;
 }

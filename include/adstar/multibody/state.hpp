@@ -1,0 +1,176 @@
+#pragma once
+// What an assembly carries from step to step, and how each formulation reads it.
+//
+//   se3:            H = Pi_I + x×p about the origin of I, p:  Pi_I = H - x×p      (the coadjoint action of SE(3))
+//   direct_product: H = Pi_I, the body's own:                 Pi_I = H
+// omega_I = R J_B⁻¹ Rᵀ Pi_I, v_I = p/m. In free fall I is the frame of the common centre of mass; an origin far
+// away costs digits of x×p. Everything in the state is a plain number: copied bit by bit, it goes on bit by bit.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "adstar/multibody/assembly.hpp"
+#include "adstar/state.hpp"
+
+namespace adstar::multibody {
+
+template <class T>
+struct BodyState {
+  VecSum<T> x_I;  ///< centre of mass [m]
+  Quat<T> q_IB;
+  VecSum<T> p_I;  ///< [N s]
+  VecSum<T> H_I;  ///< see the head of this file [N m s]
+  friend bool operator==(const BodyState&, const BodyState&) = default;
+};
+
+template <class T>
+struct AssemblyState {
+  std::vector<BodyState<T>> bodies;
+  std::vector<std::array<T, 3>> coordinates;  ///< by joint; angles count on through whole turns
+  Sum<T> work;  ///< of motors, dampers and external loads, not gravity [J]
+  friend bool operator==(const AssemblyState&, const AssemblyState&) = default;
+};
+
+/// The body's own angular momentum in I [N m s].
+template <class T>
+Vec3<T> spin_of(Formulation formulation, const Vec3<T>& x_I, const Vec3<T>& p_I,
+                const Vec3<T>& H_I) {
+  return formulation == Formulation::se3 ? H_I - cross(x_I, p_I) : H_I;
+}
+
+template <class T>
+BodyMotion<T> motion_of(const Body<T>& body, const Vec3<T>& x_I, const Quat<T>& q_IB,
+                        const Vec3<T>& p_I, const Vec3<T>& spin_I) {
+  const Vec3<T> omega_B = body.rigid.angular_velocity(rotate_inverse(q_IB, spin_I));
+  return {x_I, q_IB, (T(1) / body.mass) * p_I, rotate(q_IB, omega_B)};
+}
+
+template <class T>
+BodyMotion<T> motion_of(const Assembly<T>& assembly, const AssemblyState<T>& state,
+                        std::size_t body) {
+  const BodyState<T>& own = state.bodies[body];
+  const Vec3<T> x = own.x_I.value(), p = own.p_I.value();
+  return motion_of(assembly.bodies()[body], x, own.q_IB, p,
+                   spin_of(assembly.options().formulation, x, p, own.H_I.value()));
+}
+
+/// omega_B [rad/s]
+template <class T>
+Vec3<T> angular_velocity(const Assembly<T>& assembly, const AssemblyState<T>& state,
+                         std::size_t body) {
+  const BodyMotion<T> motion = motion_of(assembly, state, body);
+  return rotate_inverse(motion.q_IB, motion.omega_I);
+}
+
+template <class T>
+void evaluate(const Assembly<T>& assembly, std::size_t joint,
+              const std::vector<BodyMotion<T>>& motions, JointMotion<T>& m) {
+  const Joint<T>& of = assembly.joints()[joint];
+  evaluate(of, Assembly<T>::motion_of(motions, of.body_a),
+           Assembly<T>::motion_of(motions, of.body_b), m);
+}
+
+/// The start that the assembly was made with.
+template <class T>
+AssemblyState<T> make_state(const Assembly<T>& assembly) {
+  AssemblyState<T> state;
+  for (std::size_t i = 0; i < assembly.bodies().size(); ++i) {
+    const BodyMotion<T>& start = assembly.starts()[i];
+    const Body<T>& body = assembly.bodies()[i];
+    BodyState<T> own;
+    own.q_IB = start.q_IB;
+    own.x_I.add(start.x_I);
+    const Vec3<T> p = body.mass * start.v_I;
+    own.p_I.add(p);
+    own.H_I.add(rotate(start.q_IB, body.rigid.momentum(rotate_inverse(start.q_IB, start.omega_I))));
+    if (assembly.options().formulation == Formulation::se3) {
+      own.H_I.add(cross(start.x_I, p));
+    }
+    state.bodies.push_back(own);
+  }
+  JointMotion<T> m;
+  for (std::size_t j = 0; j < assembly.joints().size(); ++j) {
+    evaluate(assembly, j, assembly.starts(), m);
+    state.coordinates.push_back(joint_coordinates(assembly.joints()[j].kind, m));
+  }
+  return state;
+}
+
+/// Of the whole, about the origin of I.
+template <class T>
+struct TotalMomentum {
+  VecSum<T> p_I;  ///< [N s]
+  VecSum<T> H_I;  ///< [N m s]
+};
+
+template <class T>
+TotalMomentum<T> total_momentum(const Assembly<T>& assembly, const AssemblyState<T>& state) {
+  TotalMomentum<T> total;
+  const auto add = [](VecSum<T>& sum, const VecSum<T>& term) {
+    sum.add(term.value());
+    sum.add(Vec3<T>{term.x.carry, term.y.carry, term.z.carry});
+  };
+  for (const BodyState<T>& body : state.bodies) {
+    add(total.p_I, body.p_I);
+    add(total.H_I, body.H_I);
+    if (assembly.options().formulation == Formulation::direct_product) {
+      total.H_I.add(cross(body.x_I.value(), body.p_I.value()));
+    }
+  }
+  return total;
+}
+
+/// The common centre of mass [m].
+template <class T>
+Vec3<T> centre_of_mass(const Assembly<T>& assembly, const AssemblyState<T>& state) {
+  VecSum<T> moment;
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    moment.add(assembly.bodies()[i].mass * state.bodies[i].x_I.value());
+  }
+  return (T(1) / assembly.mass()) * moment.value();
+}
+
+/// Moves the origin to the common centre of mass, for loads that push it away; returns by how much [m]. Of a
+/// free assembly only, and to round-off: H is then about another point.
+template <class T>
+Vec3<T> recentre(const Assembly<T>& assembly, AssemblyState<T>& state) {
+  const Vec3<T> shift = centre_of_mass(assembly, state);
+  for (BodyState<T>& body : state.bodies) {
+    body.x_I.add(-shift);
+    if (assembly.options().formulation == Formulation::se3) {
+      body.H_I.add(-cross(shift, body.p_I.value()));
+    }
+  }
+  return shift;
+}
+
+/// Kinetic, of springs and stops, and of uniform gravity [J].
+template <class T>
+struct Energy {
+  T kinetic{}, springs{}, gravity{};
+  T total() const { return (kinetic + springs) + gravity; }
+};
+
+template <class T>
+Energy<T> energy(const Assembly<T>& assembly, const AssemblyState<T>& state) {
+  Energy<T> energy;
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    const Body<T>& body = assembly.bodies()[i];
+    const BodyMotion<T> motion = motion_of(assembly, state, i);
+    const Vec3<T> omega_B = rotate_inverse(motion.q_IB, motion.omega_I);
+    energy.kinetic = energy.kinetic + T(0.5) * (body.mass * squared_norm(motion.v_I) +
+                                                dot(omega_B, body.rigid.momentum(omega_B)));
+    energy.gravity = energy.gravity - body.mass * dot(assembly.options().gravity_I, motion.x_I);
+  }
+  for (std::size_t j = 0; j < assembly.joints().size(); ++j) {
+    const Joint<T>& joint = assembly.joints()[j];
+    for (int k = 0; k < shape_of(joint.kind).coordinates; ++k) {
+      const auto c = static_cast<std::size_t>(k);
+      energy.springs = energy.springs + potential(joint.laws[c], state.coordinates[j][c]);
+    }
+  }
+  return energy;
+}
+
+}  // namespace adstar::multibody
