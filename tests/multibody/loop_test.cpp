@@ -120,7 +120,7 @@ TEST(FourBar, on_rk4_converges_at_its_order) {
 TEST(ARingOnSphericalJoints, holds_all_its_rows_and_keeps_both_totals) {
   Mechanism<double> m;
   for (int i = 0; i < 4; ++i) {
-    m.add_body("b" + std::to_string(i), 1 + i, {0.1, 0.12, 0.15});
+    m.add_body(test::numbered("b", i), 1 + i, {0.1, 0.12, 0.15});
     const double turn = i * std::numbers::pi / 4;
     auto& body = m.bodies.back();
     body.q_IB = {std::cos(turn), 0, 0, std::sin(turn)};
@@ -129,7 +129,7 @@ TEST(ARingOnSphericalJoints, holds_all_its_rows_and_keeps_both_totals) {
     body.v_I = cross(V{0, 0, 0.8}, body.x_I);
   }
   for (int i = 0; i < 4; ++i) {
-    m.add_joint("j" + std::to_string(i), JointKind::spherical, i, (i + 1) % 4, {0.5, 0, 0},
+    m.add_joint(test::numbered("j", i), JointKind::spherical, i, (i + 1) % 4, {0.5, 0, 0},
                 {-0.5, 0, 0});
   }
   multibody::centre(m.bodies);

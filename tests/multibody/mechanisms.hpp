@@ -16,6 +16,12 @@ namespace adstar::test {
 
 using V = Vec3<double>;
 
+/// "link7"
+inline std::string numbered(std::string text, int i) {
+  text += std::to_string(i);
+  return text;
+}
+
 template <class T>
 struct Mechanism {
   std::vector<multibody::BodySpec<T>> bodies;
@@ -94,11 +100,11 @@ struct Flight {
 inline Mechanism<double> four_bodies(multibody::JointKind kind = multibody::JointKind::spherical) {
   Mechanism<double> m;
   for (int i = 0; i < 4; ++i) {
-    m.add_body("b" + std::to_string(i), 1 + 0.5 * i, {0.1 + 0.02 * i, 0.12, 0.15});
+    m.add_body(numbered("b", i), 1 + 0.5 * i, {0.1 + 0.02 * i, 0.12, 0.15});
   }
   m.bodies[0].omega_B = {0.3, -0.5, 0.7};
   for (int i = 0; i < 3; ++i) {
-    m.add_joint("j" + std::to_string(i), kind, i, i + 1, {0.5, 0.1, 0}, {-0.4, 0, 0.1},
+    m.add_joint(numbered("j", i), kind, i, i + 1, {0.5, 0.1, 0}, {-0.4, 0, 0.1},
                 {{0.3, 0.2 * i, -0.4}, {0.5, -1.0 + i, 0.3}});
   }
   m.place();
@@ -111,12 +117,12 @@ template <class T>
 Mechanism<T> tether(int links) {
   Mechanism<T> m;
   for (int i = 0; i < links; ++i) {
-    m.add_body("link" + std::to_string(i), T(1), {T(0.01), T(0.09), T(0.09)});
+    m.add_body(numbered("link", i), T(1), {T(0.01), T(0.09), T(0.09)});
   }
   m.bodies[0].omega_B = {T(0), T(0), T(0.05)};
   for (int i = 1; i < links; ++i) {
-    m.add_joint("j" + std::to_string(i), multibody::JointKind::spherical, i - 1, i,
-                {T(0.5), T(0), T(0)}, {T(-0.5), T(0), T(0)},
+    m.add_joint(numbered("j", i), multibody::JointKind::spherical, i - 1, i, {T(0.5), T(0), T(0)},
+                {T(-0.5), T(0), T(0)},
                 {{T(0), T(0.01) * T(i % 3), T(0.02)}, {T(0.01), T(0), T(-0.01)}});
   }
   m.place();

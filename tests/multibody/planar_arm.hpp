@@ -111,7 +111,7 @@ class PlanarArm {
     Mechanism<double> m;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const ArmLink& link = links_[i];
-      m.add_body("link" + std::to_string(i), link.mass,
+      m.add_body(numbered("link", static_cast<int>(i)), link.mass,
                  {0.6 * link.inertia, 0.7 * link.inertia, link.inertia});
       const int place = static_cast<int>(i);
       if (i == 0 && free_) {
@@ -124,7 +124,7 @@ class PlanarArm {
       const double rate_before = i == 0 ? 0 : links_[i - 1].rate;
       const V on_a = i == 0 ? V{} : V{links_[i - 1].length - links_[i - 1].centre, 0, 0};
       multibody::Joint<double>& joint =
-          m.add_joint("j" + std::to_string(i), multibody::JointKind::revolute,
+          m.add_joint(numbered("j", place), multibody::JointKind::revolute,
                       i == 0 ? multibody::kGround : place - 1, place, on_a, {-link.centre, 0, 0},
                       {{link.angle - before, 0, 0}, {link.rate - rate_before, 0, 0}});
       joint.laws[0].stiffness = link.stiffness;

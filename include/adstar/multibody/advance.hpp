@@ -313,13 +313,16 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
                                                : T(Coadjoint<Tableau>::kSubstepAngleRad);
   AssemblyReport<T> report;
   detail::read_state(assembly, state, work);
-  detail::evaluate_joints(assembly, work);
-  work.coordinates = state.coordinates;
   T fastest{};
   for (const BodyMotion<T>& motion : work.motions) {
     fastest = max(fastest, norm(motion.omega_I));
   }
-  const detail::FastRates<T> rates = detail::fast_rates(assembly, work, length);
+  detail::FastRates<T> rates;
+  if (work.has_laws) {
+    detail::evaluate_joints(assembly, work);
+    work.coordinates = state.coordinates;
+    rates = detail::fast_rates(assembly, work, length);
+  }
   const T stiff = length * max(rates.oscillation, rates.decay / T(decay_limit(Tableau::kOrder)));
   const T wanted = ceil(max(max(T(1), length * fastest / angle), stiff));
   const T most = T(limits.substeps);

@@ -38,6 +38,26 @@ int factor_cholesky(T* A, int n, int ld, const T* least = nullptr) {
   return dropped;
 }
 
+/// The same of N × N with leading dimension 6, where nothing is to be taken out: loops of known length.
+template <int N, class T>
+void factor_cholesky_of(T* A) {
+  using std::sqrt;
+  for (int i = 0; i < N; ++i) {
+    T* const row = A + 6 * i;
+    T pivot = row[i];
+    for (int j = 0; j < i; ++j) {
+      const T* const other = A + 6 * j;
+      T sum = row[j];
+      for (int k = 0; k < j; ++k) {
+        sum = sum - row[k] * other[k];
+      }
+      row[j] = sum * other[j];
+      pivot = pivot - row[j] * row[j];
+    }
+    row[i] = T(1) / sqrt(pivot);
+  }
+}
+
 /// x := L⁻¹ x
 template <class T>
 void solve_lower(const T* L, int n, int ld, T* x) {

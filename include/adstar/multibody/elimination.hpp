@@ -174,47 +174,68 @@ class Elimination {
     for (std::size_t l = links_.size(); l-- > 0;) {
       const TreeLink& link = links_[l];
       Block& own = block(link.body);
-      factor_cholesky(own.L, 6, 6);
+      factor_cholesky_of<6>(own.L);
       if (link.joint < 0) {
         continue;
       }
       const JointJacobian<T>& C = jacobians_[at(link.joint)];
       const JacobianBlock<T>& child = link.child_is_b ? C.b : C.a;
       const JacobianBlock<T>& parent = link.child_is_b ? C.a : C.b;
-      const int n = rows_[at(link.joint)];
-      for (int i = 0; i < n; ++i) {
-        T* const column = own.Y + 6 * i;
-        for (int k = 0; k < 6; ++k) {
-          column[k] = child.row[i][k];
-        }
-        solve_lower(own.L, 6, 6, column);
-        for (int j = 0; j <= i; ++j) {
-          own.LS[6 * i + j] = product(column, own.Y + 6 * j);
-        }
+      T* const M = link.parent == kGround ? nullptr : block(link.parent).L;
+      switch (rows_[at(link.joint)]) {
+        case 3:
+          eliminate<3>(own, child, parent, M);
+          break;
+        case 4:
+          eliminate<4>(own, child, parent, M);
+          break;
+        case 5:
+          eliminate<5>(own, child, parent, M);
+          break;
+        default:
+          eliminate<6>(own, child, parent, M);
       }
-      factor_cholesky(own.LS, n, 6);
-      if (link.parent == kGround) {
-        continue;
-      }
-      for (int i = 0; i < n; ++i) {  // forward substitution, six right-hand sides at once
-        T* const row = own.Z + 6 * i;
-        for (int k = 0; k < 6; ++k) {
-          T sum = parent.row[i][k];
-          for (int j = 0; j < i; ++j) {
-            sum = sum - own.LS[6 * i + j] * own.Z[6 * j + k];
-          }
-          row[k] = sum * own.LS[6 * i + i];
+    }
+  }
+
+  /// A body whose M̂ is factored, and its joint of N rows, into the parent's M̂ (null: the ground).
+  template <int N>
+  static void eliminate(Block& own, const JacobianBlock<T>& child, const JacobianBlock<T>& parent,
+                        T* M) {
+    for (int i = 0; i < N; ++i) {
+      T* const column = own.Y + 6 * i;
+      for (int k = 0; k < 6; ++k) {
+        T sum = child.row[i][k];
+        for (int j = 0; j < k; ++j) {
+          sum = sum - own.L[6 * k + j] * column[j];
         }
+        column[k] = sum * own.L[7 * k];
       }
-      T* const M = block(link.parent).L;
-      for (int r = 0; r < 6; ++r) {
-        for (int c = 0; c <= r; ++c) {
-          T sum = M[6 * r + c];
-          for (int i = 0; i < n; ++i) {
-            sum = sum + own.Z[6 * i + r] * own.Z[6 * i + c];
-          }
-          M[6 * r + c] = sum;
+      for (int j = 0; j <= i; ++j) {
+        own.LS[6 * i + j] = product(column, own.Y + 6 * j);
+      }
+    }
+    factor_cholesky_of<N>(own.LS);
+    if (M == nullptr) {
+      return;
+    }
+    for (int i = 0; i < N; ++i) {  // forward substitution, six right-hand sides at once
+      T* const row = own.Z + 6 * i;
+      for (int k = 0; k < 6; ++k) {
+        T sum = parent.row[i][k];
+        for (int j = 0; j < i; ++j) {
+          sum = sum - own.LS[6 * i + j] * own.Z[6 * j + k];
         }
+        row[k] = sum * own.LS[7 * i];
+      }
+    }
+    for (int r = 0; r < 6; ++r) {
+      for (int c = 0; c <= r; ++c) {
+        T sum = M[6 * r + c];
+        for (int i = 0; i < N; ++i) {
+          sum = sum + own.Z[6 * i + r] * own.Z[6 * i + c];
+        }
+        M[6 * r + c] = sum;
       }
     }
   }

@@ -64,7 +64,13 @@ struct Workspace {
         xi_slopes(kMostStages * motions.size()),
         load_slopes(kMostStages * motions.size()),
         joint_slopes(kMostStages * joints.size()),
-        before(make_state(assembly)) {}
+        before(make_state(assembly)) {
+    for (const Joint<T>& joint : assembly.joints()) {
+      for (const CoordinateLaw<T>& law : joint.laws) {
+        has_laws = has_laws || law.stops || law.stiffness > T(0) || law.damping > T(0);
+      }
+    }
+  }
 
   Elimination<T> elimination;
   std::vector<BodyMotion<T>> motions;
@@ -84,6 +90,8 @@ struct Workspace {
   std::vector<LoadSlope<T>> load_slopes;
   std::vector<JointSlope<T>> joint_slopes;
   std::array<T, kMostStages> power{};
+
+  bool has_laws = false;  ///< springs, dampers or stops
 
   AssemblyState<T> before;  ///< to go back to, when a step has to be taken in more parts
 };
