@@ -21,10 +21,10 @@ command -v openssl >/dev/null || fail "openssl is missing; try: bash deploy/inst
 dir=$1
 authorities=$dir/authorities
 # Every topic of service/dds/topics.hpp: what moves a daemon, and what it says.
-torques=(torque_command wheel_torque_command wheel_speed_command dipole_command thruster_command)
+torques=(torque_command wheel_torque_command wheel_speed_command dipole_command thruster_command joint_torque_command)
 clock=(step_request run_control)
 standby=(standby_beat standby_record standby_state)
-telemetry=(command_status attitude_state momentum_state wheel_state pointing_state fleet_state service_status step_timing service_roster
+telemetry=(command_status attitude_state momentum_state wheel_state pointing_state body_state joint_state fleet_state service_status step_timing service_roster
   step_reply run_control_status)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -19,6 +19,9 @@ std::string_view actuator_of(const adstar_DipoleCommand& command) {
 std::string_view actuator_of(const adstar_ThrusterCommand& command) {
   return dds::text_of(command.thruster);
 }
+std::string_view actuator_of(const adstar_JointTorqueCommand& command) {
+  return dds::text_of(command.joint);
+}
 std::string_view actuator_of(const auto& command) { return dds::text_of(command.wheel); }
 
 template <class Command>
@@ -27,6 +30,8 @@ template <>
 constexpr scene::ActuatorKind kKind<adstar_TorqueCommand> = scene::ActuatorKind::torque;
 template <>
 constexpr scene::ActuatorKind kKind<adstar_DipoleCommand> = scene::ActuatorKind::magnetorquer;
+template <>
+constexpr scene::ActuatorKind kKind<adstar_JointTorqueCommand> = scene::ActuatorKind::joint;
 template <>
 constexpr scene::ActuatorKind kKind<adstar_ThrusterCommand> = scene::ActuatorKind::thruster;
 
@@ -45,6 +50,7 @@ CommandIntake::CommandIntake(const dds::Participant& participant, runtime::Share
       wheel_speeds_(participant),
       dipoles_(participant),
       thrusters_(participant),
+      joints_(participant),
       requests_(participant, segment, directory, service_),
       wait_set_(participant) {
   wait_set_.attach(torques_);
@@ -52,6 +58,7 @@ CommandIntake::CommandIntake(const dds::Participant& participant, runtime::Share
   wait_set_.attach(wheel_speeds_);
   wait_set_.attach(dipoles_);
   wait_set_.attach(thrusters_);
+  wait_set_.attach(joints_);
   requests_.attach_to(wait_set_);
   thread_ = std::thread([this] { listen(); });
 }
@@ -95,6 +102,7 @@ bool CommandIntake::take_commands() {
   taken += take_from(wheel_speeds_);
   taken += take_from(dipoles_);
   taken += take_from(thrusters_);
+  taken += take_from(joints_);
   return taken > 0;
 }
 

@@ -56,6 +56,7 @@ class CommandIntake {
   dds::Reader<adstar_WheelSpeedCommand> wheel_speeds_;
   dds::Reader<adstar_DipoleCommand> dipoles_;
   dds::Reader<adstar_ThrusterCommand> thrusters_;
+  dds::Reader<adstar_JointTorqueCommand> joints_;
   RequestIntake requests_;
   dds::WaitSet wait_set_;
   std::atomic<std::uint64_t> handed_over_{0};

@@ -37,6 +37,23 @@ std::string_view Directory::actuator_name(std::uint32_t spacecraft,
   return scene_->spacecraft[spacecraft].actuators[actuator].name;
 }
 
+std::string_view Directory::body_name(std::uint32_t spacecraft, std::uint32_t body) const noexcept {
+  const scene::LinkedBodies* const linked =
+      spacecraft < size() ? scene_->spacecraft[spacecraft].linked.get() : nullptr;
+  return linked != nullptr && body < linked->bodies.size()
+             ? std::string_view(linked->bodies[body].name)
+             : std::string_view();
+}
+
+std::string_view Directory::joint_name(std::uint32_t spacecraft,
+                                       std::uint32_t joint) const noexcept {
+  const scene::LinkedBodies* const linked =
+      spacecraft < size() ? scene_->spacecraft[spacecraft].linked.get() : nullptr;
+  return linked != nullptr && joint < linked->joints.size()
+             ? std::string_view(linked->joints[joint].name)
+             : std::string_view();
+}
+
 std::string_view Directory::wheel_name(std::uint32_t spacecraft,
                                        std::uint32_t wheel) const noexcept {
   if (spacecraft >= size() || wheel >= scene_->spacecraft[spacecraft].wheels.size()) {

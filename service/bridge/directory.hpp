@@ -25,6 +25,8 @@ class Directory {
   /// Empty when the index is none of the scene's.
   std::string_view spacecraft_name(std::uint32_t index) const noexcept;
   std::string_view actuator_name(std::uint32_t spacecraft, std::uint32_t actuator) const noexcept;
+  std::string_view body_name(std::uint32_t spacecraft, std::uint32_t body) const noexcept;
+  std::string_view joint_name(std::uint32_t spacecraft, std::uint32_t joint) const noexcept;
   std::string_view wheel_name(std::uint32_t spacecraft, std::uint32_t wheel) const noexcept;
 
  private:

@@ -61,6 +61,8 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
       momentum_(participant),
       wheels_(participant),
       pointing_(participant),
+      bodies_(participant),
+      joints_(participant),
       fleet_(participant),
       status_(participant),
       timing_(participant),
@@ -78,6 +80,15 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
     if (scene.telemetry.pointing_every > 0 && (craft.orbit || craft.target)) {
       pointing_.register_instance(dds::to_sample(runtime::PointingRecord{}, name, service_));
     }
+    if (scene.telemetry.linked_every > 0 && craft.linked) {
+      for (const auto& body : craft.linked->bodies) {
+        bodies_.register_instance(dds::to_sample(runtime::BodyRecord{}, name, body.name, service_));
+      }
+      for (const auto& joint : craft.linked->joints) {
+        joints_.register_instance(
+            dds::to_sample(runtime::JointRecord{}, name, joint.name, service_));
+      }
+    }
     for (const scene::NamedWheel& wheel : craft.wheels) {
       if (scene.telemetry.wheel_every > 0) {
         wheels_.register_instance(
@@ -94,7 +105,9 @@ Publisher::Left Publisher::publish_some() {
   publish_control_answers();
   const bool wheels = publish_wheels();
   const bool pointing = publish_pointing();
-  const bool telemetry = publish_telemetry() || wheels || pointing;
+  const bool bodies = publish_bodies();
+  const bool joints = publish_joints();
+  const bool telemetry = publish_telemetry() || wheels || pointing || bodies || joints;
   const bool fleet = publish_fleet();
   if (!verdicts && !telemetry) {
     publish_step_replies(replies);
@@ -188,6 +201,34 @@ bool Publisher::publish_wheels() {
   return true;
 }
 
+bool Publisher::publish_bodies() {
+  for (int i = 0; i < kBatch; ++i) {
+    const auto record = segment_->bodies.pop();
+    if (!record) {
+      return false;
+    }
+    count_unsent(bodies_.write(
+        dds::to_sample(*record, directory_.spacecraft_name(record->spacecraft),
+                       directory_.body_name(record->spacecraft, record->body), service_)));
+    ++counts_.telemetry;
+  }
+  return true;
+}
+
+bool Publisher::publish_joints() {
+  for (int i = 0; i < kBatch; ++i) {
+    const auto record = segment_->joints.pop();
+    if (!record) {
+      return false;
+    }
+    count_unsent(joints_.write(
+        dds::to_sample(*record, directory_.spacecraft_name(record->spacecraft),
+                       directory_.joint_name(record->spacecraft, record->joint), service_)));
+    ++counts_.telemetry;
+  }
+  return true;
+}
+
 bool Publisher::publish_pointing() {
   for (int i = 0; i < kBatch; ++i) {
     const auto record = segment_->pointing.pop();
@@ -263,6 +304,8 @@ bool Publisher::wait_for_readers(std::chrono::milliseconds timeout) {
   all = momentum_.wait_for_acks(left()) && all;
   all = wheels_.wait_for_acks(left()) && all;
   all = pointing_.wait_for_acks(left()) && all;
+  all = bodies_.wait_for_acks(left()) && all;
+  all = joints_.wait_for_acks(left()) && all;
   all = fleet_.wait_for_acks(left()) && all;
   all = status_.wait_for_acks(left()) && all;
   all = timing_.wait_for_acks(left()) && all;

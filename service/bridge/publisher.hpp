@@ -56,6 +56,8 @@ class Publisher {
   bool publish_telemetry();
   bool publish_wheels();
   bool publish_pointing();
+  bool publish_bodies();
+  bool publish_joints();
   bool publish_fleet();
   void publish_step_replies(std::size_t count);
   void publish_control_answers();
@@ -70,6 +72,8 @@ class Publisher {
   dds::Writer<adstar_MomentumState> momentum_;
   dds::Writer<adstar_WheelState> wheels_;
   dds::Writer<adstar_PointingState> pointing_;
+  dds::Writer<adstar_BodyState> bodies_;
+  dds::Writer<adstar_JointState> joints_;
   dds::Writer<adstar_FleetState> fleet_;
   dds::Writer<adstar_ServiceStatus> status_;
   dds::Writer<adstar_StepTiming> timing_;

@@ -1,5 +1,6 @@
 #include "service/dds/convert.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -71,6 +72,7 @@ static_assert(runtime::kFlagFinal == adstar_FLAG_FINAL);
 static_assert(runtime::kFlagUnresolvedDamping == adstar_FLAG_UNRESOLVED_DAMPING);
 static_assert(runtime::kWheelTorqueLimited == adstar_WHEEL_TORQUE_LIMITED);
 static_assert(runtime::kWheelSpeedLimited == adstar_WHEEL_SPEED_LIMITED);
+static_assert(runtime::kFlagJointOpen == adstar_FLAG_JOINT_OPEN);
 static_assert(runtime::kPointingOrbit == adstar_POINTING_ORBIT);
 static_assert(runtime::kPointingTarget == adstar_POINTING_TARGET);
 static_assert(runtime::kFlagLightAxis == adstar_FLAG_LIGHT_AXIS);
@@ -166,6 +168,13 @@ runtime::CommandRecord to_record(const adstar_DipoleCommand& sample, std::uint32
   runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
   record.quantity = runtime::Quantity::dipole;
   record.value = {m.x, m.y, m.z};
+  return record;
+}
+
+runtime::CommandRecord to_record(const adstar_JointTorqueCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept {
+  runtime::CommandRecord record = header_of(sample, spacecraft, actuator);
+  record.value = {sample.motor_torque_n_m, 0, 0};
   return record;
 }
 
@@ -318,6 +327,40 @@ adstar_PointingState to_sample(const runtime::PointingRecord& record, std::strin
   sample.pointing_error_body_rad = vector(record.error_B_rad);
   const std::array<double, 3>& e = record.error_B_rad;
   sample.pointing_error_rad = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+  sample.flags = record.flags;
+  return sample;
+}
+
+adstar_BodyState to_sample(const runtime::BodyRecord& record, std::string_view spacecraft,
+                           std::string_view body, std::string_view service) noexcept {
+  adstar_BodyState sample{};
+  set_text(sample.spacecraft, spacecraft);
+  set_text(sample.body, body);
+  set_text(sample.service, service);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.attitude_body_to_inertial = quaternion(record.q_IB);
+  sample.angular_velocity_body_rad_s = vector(record.omega_B_rad_s);
+  sample.position_inertial_m = vector(record.position_I_m);
+  sample.velocity_inertial_m_s = vector(record.velocity_I_m_s);
+  sample.flags = record.flags;
+  return sample;
+}
+
+adstar_JointState to_sample(const runtime::JointRecord& record, std::string_view spacecraft,
+                            std::string_view joint, std::string_view service) noexcept {
+  adstar_JointState sample{};
+  set_text(sample.spacecraft, spacecraft);
+  set_text(sample.joint, joint);
+  set_text(sample.service, service);
+  sample.step = record.step;
+  sample.time_ns = record.time_ns;
+  sample.coordinates = record.coordinates;
+  std::copy(record.coordinate.begin(), record.coordinate.end(), sample.coordinate);
+  std::copy(record.rate.begin(), record.rate.end(), sample.rate);
+  std::copy(record.motor_torque.begin(), record.motor_torque.end(), sample.motor_torque);
+  sample.force_inertial_n = vector(record.force_I_n);
+  sample.couple_inertial_n_m = vector(record.couple_I_n_m);
   sample.flags = record.flags;
   return sample;
 }

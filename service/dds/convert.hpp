@@ -43,6 +43,8 @@ runtime::CommandRecord to_record(const adstar_WheelSpeedCommand& sample, std::ui
                                  std::uint32_t actuator) noexcept;
 runtime::CommandRecord to_record(const adstar_DipoleCommand& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept;
+runtime::CommandRecord to_record(const adstar_JointTorqueCommand& sample, std::uint32_t spacecraft,
+                                 std::uint32_t actuator) noexcept;
 runtime::CommandRecord to_record(const adstar_ThrusterCommand& sample, std::uint32_t spacecraft,
                                  std::uint32_t actuator) noexcept;
 
@@ -66,6 +68,10 @@ adstar_MomentumState to_momentum(const runtime::TelemetryRecord& record,
                                  std::string_view spacecraft, std::string_view service) noexcept;
 adstar_WheelState to_sample(const runtime::WheelRecord& record, std::string_view spacecraft,
                             std::string_view wheel, std::string_view service) noexcept;
+adstar_BodyState to_sample(const runtime::BodyRecord& record, std::string_view spacecraft,
+                           std::string_view body, std::string_view service) noexcept;
+adstar_JointState to_sample(const runtime::JointRecord& record, std::string_view spacecraft,
+                            std::string_view joint, std::string_view service) noexcept;
 adstar_PointingState to_sample(const runtime::PointingRecord& record, std::string_view spacecraft,
                                std::string_view service) noexcept;
 adstar_FleetMember to_member(const runtime::FleetRecord& record) noexcept;

@@ -147,6 +147,10 @@ std::string telemetry_report(const scene::Scene& scene) {
   if (telemetry.wheel_every > 0) {
     text += topic_line("wheel_state", telemetry.wheel_every, step_ns, watched);
   }
+  if (telemetry.linked_every > 0) {
+    text += topic_line("body_state", telemetry.linked_every, step_ns, watched);
+    text += topic_line("joint_state", telemetry.linked_every, step_ns, watched);
+  }
   if (telemetry.pointing_every > 0) {
     text += topic_line("pointing_state", telemetry.pointing_every, step_ns, watched);
   }
@@ -189,7 +193,10 @@ std::string left_out(const scene::Scene& scene) {
   if (!any([](const scene::Spacecraft& craft) { return craft.orbit.has_value(); })) {
     absent.emplace_back("orbit");
   }
-  absent.emplace_back("translation");
+  if (scene::first_linked(scene.spacecraft) == nullptr) {
+    absent.emplace_back("translation");
+    absent.emplace_back("linked bodies");
+  }
   const auto list = [&]<class Model>(const char* what) {
     if (!names([](const Torque<double>& t) { return std::holds_alternative<Model>(t); })) {
       absent.emplace_back(what);

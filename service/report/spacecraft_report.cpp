@@ -107,7 +107,8 @@ std::string torque_lines(const scene::Spacecraft& craft) {
           std::string what;
           const auto actuator = std::find_if(
               craft.actuators.begin(), craft.actuators.end(), [&](const scene::Actuator& a) {
-                return a.kind != scene::ActuatorKind::wheel && a.index == i;
+                return a.kind != scene::ActuatorKind::wheel &&
+                       a.kind != scene::ActuatorKind::joint && a.index == i;
               });
           if constexpr (std::is_same_v<Model, Commanded<double>>) {
             what = fmt::format("actuator '{}', at most {} N m", actuator->name,
@@ -201,6 +202,42 @@ std::string wheel_lines(const scene::Spacecraft& craft) {
   return text;
 }
 
+std::string linked_lines(const scene::Spacecraft& craft) {
+  if (!craft.linked) {
+    return {};
+  }
+  const scene::LinkedBodies& linked = *craft.linked;
+  double mass = 0;
+  for (const auto& body : linked.bodies) {
+    mass += body.mass_kg;
+  }
+  std::string text =
+      fmt::format("    linked    {} bodies of {} kg, {} joints, on {}\n",
+                  counted(linked.bodies.size()), short_number(mass), counted(linked.joints.size()),
+                  linked.formulation == multibody::Formulation::se3 ? "SE(3)" : "R3 x SO(3)");
+  constexpr std::size_t kShown = 8;
+  for (std::size_t i = 0; i < std::min(kShown, linked.joints.size()); ++i) {
+    const auto& joint = linked.joints[i];
+    const auto motors = std::count_if(linked.motors.begin(), linked.motors.end(),
+                                      [&](const auto& motor) { return motor.joint == i; });
+    text += fmt::format("    joint     '{}', {}, from '{}' to '{}'{}\n", joint.name,
+                        multibody::kind_name(joint.kind),
+                        linked.bodies[static_cast<std::size_t>(joint.body_a)].name,
+                        linked.bodies[static_cast<std::size_t>(joint.body_b)].name,
+                        motors > 0 ? ", with a motor" : "");
+  }
+  if (linked.joints.size() > kShown) {
+    text += fmt::format("    ... {} more joints\n", counted(linked.joints.size() - kShown));
+  }
+  const multibody::Assembly<double> assembly(linked.bodies, linked.joints,
+                                             {linked.formulation, {}});
+  for (const auto& loop : assembly.loops()) {
+    text += fmt::format("    loop      {}\n",
+                        loop.describe(linked.joints[static_cast<std::size_t>(loop.joint)].kind));
+  }
+  return text;
+}
+
 void add(Group& group, const scene::Spacecraft& craft) {
   const RigidBody<double> body(craft.inertia_body_kg_m2);
   group.first = group.count == 0 ? craft.name : group.first;
@@ -236,7 +273,8 @@ std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft) 
   std::vector<Group> groups;
   std::map<std::string, std::size_t> by_torques;
   for (const scene::Spacecraft& craft : spacecraft) {
-    std::string torques = orbit_line(craft) + torque_lines(craft) + wheel_lines(craft);
+    std::string torques =
+        orbit_line(craft) + torque_lines(craft) + wheel_lines(craft) + linked_lines(craft);
     const auto [place, fresh] = by_torques.emplace(torques, groups.size());
     if (fresh) {
       groups.emplace_back();

@@ -19,8 +19,8 @@ struct RunRecords {
   std::vector<runtime::JournalRecord> heard;  ///< commands and controls, none missing between
   std::vector<runtime::JournalRecord> hashes;
   std::vector<runtime::JournalRecord> digests;  ///< step by step, where the scene asked for that
-  std::uint64_t next_number = 1;    ///< of the record that would come next
-  std::uint64_t highest = 0;        ///< of all numbers, those after a gap too
+  std::uint64_t next_number = 1;                ///< of the record that would come next
+  std::uint64_t highest = 0;                    ///< of all numbers, those after a gap too
   std::uint64_t last_in_files = 0;  ///< number of the last that needs no memory to survive
   std::vector<std::string> damage;  ///< a sentence for each file that is not whole
   std::string gap;                  ///< what is missing before later records; empty: nothing

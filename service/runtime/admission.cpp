@@ -34,6 +34,14 @@ scene::Spacecraft at_its_dearest(scene::Spacecraft craft) {
       motor.intervals = 1;
       continue;
     }
+    if (actuator.kind == scene::ActuatorKind::joint) {
+      auto linked = std::make_shared<scene::LinkedBodies>(*craft.linked);
+      auto& window = linked->motors[actuator.index].window;
+      window.window[0] = {0, kNever, actuator.limit};
+      window.intervals = 1;
+      craft.linked = std::move(linked);
+      continue;
+    }
     Torque<double>& torque = craft.torques[actuator.index];
     if (auto* const commanded = std::get_if<Commanded<double>>(&torque)) {
       commanded->window[0] = {0, kNever, actuator.limit};

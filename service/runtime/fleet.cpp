@@ -8,6 +8,7 @@
 #include "adstar/integrators/all.hpp"
 #include "adstar/orbit/orbital_frame.hpp"
 #include "service/runtime/batch_stepper.hpp"
+#include "service/runtime/linked_stepper.hpp"
 #include "service/runtime/model_memory.hpp"
 #include "service/runtime/threaded_stepper.hpp"
 #include "service/runtime/vehicle_step.hpp"
@@ -29,6 +30,7 @@ void assign(std::array<double, N>& target, const Vec3<double>& v) noexcept {
 void open_accounts(Vehicle& vehicle) noexcept {
   vehicle.state.impulse_I = {};
   vehicle.state.work = {};
+  share_accounts(vehicle);
   vehicle.H_0 = vehicle.state.H_I.value();
   vehicle.E_0 = energy_of(vehicle);
 }
@@ -98,21 +100,29 @@ std::unique_ptr<Stepper> make_plain_stepper(std::span<const Vehicle> vehicles,
   return stepper;
 }
 
-/// Neighbours that have wheels, and neighbours that have none, each by a stepper of their own: those without
-/// fill lanes as ever.
+enum class Kind { plain, wheels, linked };
+
+Kind kind_of(const Vehicle& vehicle) noexcept {
+  return vehicle.linked != nullptr   ? Kind::linked
+         : vehicle.wheels != nullptr ? Kind::wheels
+                                     : Kind::plain;
+}
+
+/// Neighbours of one kind by a stepper of their own: plain ones fill lanes as ever.
 class RunsStepper final : public Stepper {
  public:
   RunsStepper(std::span<const Vehicle> vehicles, std::string_view scheme, Lanewise lanewise) {
     for (std::size_t first = 0; first < vehicles.size();) {
       std::size_t end = first + 1;
-      const bool wheels = vehicles[first].wheels != nullptr;
-      while (end < vehicles.size() && (vehicles[end].wheels != nullptr) == wheels) {
+      const Kind kind = kind_of(vehicles[first]);
+      while (end < vehicles.size() && kind_of(vehicles[end]) == kind) {
         ++end;
       }
       const std::span<const Vehicle> run = vehicles.subspan(first, end - first);
-      runs_.push_back(
-          {first, run.size(),
-           wheels ? make_wheel_stepper(scheme) : make_plain_stepper(run, scheme, lanewise)});
+      runs_.push_back({first, run.size(),
+                       kind == Kind::linked   ? make_linked_stepper(scheme)
+                       : kind == Kind::wheels ? make_wheel_stepper(scheme)
+                                              : make_plain_stepper(run, scheme, lanewise)});
       first = end;
     }
   }
@@ -145,7 +155,7 @@ class RunsStepper final : public Stepper {
 std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::string_view scheme,
                                       Lanewise lanewise) {
   const bool plain = std::none_of(vehicles.begin(), vehicles.end(),
-                                  [](const Vehicle& v) { return v.wheels != nullptr; });
+                                  [](const Vehicle& v) { return kind_of(v) != Kind::plain; });
   return plain ? make_plain_stepper(vehicles, scheme, lanewise)
                : std::make_unique<RunsStepper>(vehicles, scheme, lanewise);
 }
@@ -169,6 +179,9 @@ std::unique_ptr<Reference> make_reference(const scene::Spacecraft& craft) {
 }  // namespace
 
 Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept {
+  if (vehicle.linked != nullptr) {
+    return multibody::angular_velocity(vehicle.linked->assembly, vehicle.linked->state, 0);
+  }
   const Vec3<double> Pi_B = body_momentum(vehicle.state);
   return vehicle.wheels == nullptr
              ? vehicle.body.angular_velocity(Pi_B)
@@ -176,6 +189,9 @@ Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept {
 }
 
 double energy_of(const Vehicle& vehicle) noexcept {
+  if (vehicle.linked != nullptr) {
+    return multibody::energy(vehicle.linked->assembly, vehicle.linked->state).total();
+  }
   const Vec3<double> Pi_B = body_momentum(vehicle.state);
   return vehicle.wheels == nullptr ? vehicle.body.energy(Pi_B)
                                    : energy(vehicle.wheels->hub, vehicle.wheels->all(), Pi_B);
@@ -193,7 +209,11 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
                     {},
                     0,
                     make_wheels(craft),
-                    make_reference(craft)};
+                    make_reference(craft),
+                    make_linked(craft)};
+    if (vehicle.linked != nullptr) {
+      mirror(vehicle);
+    }
     open_accounts(vehicle);
     for (std::size_t k = 0; k < vehicle.torques.size(); ++k) {
       if (std::holds_alternative<Magnetorquer<double>>(vehicle.torques[k])) {
@@ -216,6 +236,9 @@ void Fleet::set_state(std::size_t vehicle, const Quat<double>& q_IB,
 bool Fleet::set_motion(std::size_t vehicle, const Quat<double>& q_IB,
                        const Vec3<double>& omega_B) noexcept {
   const Vehicle& moved = vehicles_[vehicle];
+  if (moved.linked != nullptr) {
+    return false;
+  }
   Wheels* const wheels = moved.wheels.get();
   const Vec3<double> rates = wheels == nullptr ? omega_B : angular_velocity_of(moved);
   Vec3<double> Pi_B = moved.body.momentum(omega_B);
@@ -239,7 +262,7 @@ bool Fleet::set_motion(std::size_t vehicle, const Quat<double>& q_IB,
 
 bool Fleet::can_have_body(std::size_t vehicle, const RigidBody<double>& body) const noexcept {
   const Vehicle& asked = vehicles_[vehicle];
-  return can_turn(body, body_momentum(asked.state)) &&
+  return asked.linked == nullptr && can_turn(body, body_momentum(asked.state)) &&
          (asked.wheels == nullptr || is_body_beside_wheels(hub_of(body, asked.wheels->all())));
 }
 
@@ -292,6 +315,11 @@ bool Fleet::reset() noexcept {
       spinning.motor.intervals = 0;
       spinning.order = spinning.motor.standing;
     }
+    if (vehicle.linked != nullptr) {
+      for (multibody::CoordinateMotor<double>& motor : vehicle.linked->motors) {
+        motor.window.intervals = 0;
+      }
+    }
     vehicle.H_0 = start.H_0;
     vehicle.E_0 = start.E_0;
     for (Torque<double>& torque : vehicle.torques) {
@@ -304,6 +332,7 @@ bool Fleet::reset() noexcept {
           torque);
     }
     load_memory(vehicle, start.memory.data());
+    share_accounts(vehicle);
   }
   return true;
 }
@@ -336,6 +365,49 @@ WheelRecord sample(const SpinningWheel<double>& spinning, const Vec3<double>& om
     record.flags = (motor.torque_limited ? kWheelTorqueLimited : 0U) |
                    (motor.speed_limited ? kWheelSpeedLimited : 0U);
   }
+  return record;
+}
+
+void observe(Vehicle& vehicle, std::int64_t t_ns) noexcept {
+  multibody::LinkedFlight<double>& flight = *vehicle.linked;
+  const std::span<const Torque<double>> torques(vehicle.torques);
+  multibody::set_motors(flight, t_ns);
+  for (std::size_t i = 0; i < flight.segments.size(); ++i) {
+    flight.segments[i] =
+        adstar::detail::make_segment(multibody::torques_of(flight, torques, i), t_ns);
+  }
+  multibody::observe(flight.assembly, flight.work, flight.state, flight.motor_torques.data(),
+                     [&](const multibody::LoadStage<double>& stage) {
+                       return multibody::load_of(flight, torques, seconds<double>(t_ns), stage);
+                     });
+}
+
+BodyRecord sample_body(const Vehicle& vehicle, std::size_t body) noexcept {
+  BodyRecord record;
+  const multibody::LinkedFlight<double>& flight = *vehicle.linked;
+  const multibody::BodyMotion<double> motion =
+      multibody::motion_of(flight.assembly, flight.state, body);
+  record.body = static_cast<std::uint32_t>(body);
+  record.flags = vehicle.flags;
+  record.q_IB = {motion.q_IB.w, motion.q_IB.x, motion.q_IB.y, motion.q_IB.z};
+  assign(record.omega_B_rad_s, rotate_inverse(motion.q_IB, motion.omega_I));
+  assign(record.position_I_m, motion.x_I);
+  assign(record.velocity_I_m_s, motion.v_I);
+  return record;
+}
+
+JointRecord sample_joint(const Vehicle& vehicle, std::size_t joint) noexcept {
+  JointRecord record;
+  const multibody::LinkedFlight<double>& flight = *vehicle.linked;
+  const multibody::JointKind kind = flight.assembly.joints()[joint].kind;
+  record.joint = static_cast<std::uint32_t>(joint);
+  record.flags = vehicle.flags;
+  record.coordinates = static_cast<std::uint32_t>(multibody::shape_of(kind).coordinates);
+  record.coordinate = flight.state.coordinates[joint];
+  record.rate = multibody::joint_rates(kind, flight.work.joints[joint]);
+  record.motor_torque = flight.motor_torques[joint];
+  assign(record.force_I_n, flight.work.loads[joint].force);
+  assign(record.couple_I_n_m, flight.work.loads[joint].couple);
   return record;
 }
 

@@ -10,6 +10,7 @@
 
 #include "adstar/bodies/gyrostat.hpp"
 #include "adstar/bodies/rigid_body.hpp"
+#include "adstar/multibody/forced.hpp"
 #include "adstar/propagator.hpp"
 #include "service/runtime/records.hpp"
 #include "service/scene/scene.hpp"
@@ -40,9 +41,19 @@ struct alignas(64) Vehicle {
   double E_0 = 0;                        ///< rotational energy at t = 0 [J]
   std::unique_ptr<Wheels> wheels;        ///< null: none
   std::unique_ptr<Reference> reference;  ///< null: none
+  std::unique_ptr<multibody::LinkedFlight<double>>
+      linked;  ///< null: one body; else it has the hub too
 };
 
-/// omega_B [rad/s]
+/// The accounts of linked bodies are the vehicle's: impulse and work since they were opened.
+inline void share_accounts(Vehicle& vehicle) noexcept {
+  if (vehicle.linked != nullptr) {
+    vehicle.linked->state.impulse_I = vehicle.state.impulse_I;
+    vehicle.linked->state.work = vehicle.state.work;
+  }
+}
+
+/// omega_B [rad/s]; of linked bodies the hub's
 Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept;
 /// Of the body and the wheels [J].
 double energy_of(const Vehicle& vehicle) noexcept;
@@ -132,6 +143,13 @@ WheelRecord sample(const SpinningWheel<double>& spinning, const Vec3<double>& om
 
 /// Its attitude against its reference, which it has, at t_s.
 PointingRecord pointing(const Vehicle& vehicle, double t_s) noexcept;
+
+/// One of its linked bodies, and one of their joints, which the workspace was made to observe().
+BodyRecord sample_body(const Vehicle& vehicle, std::size_t body) noexcept;
+JointRecord sample_joint(const Vehicle& vehicle, std::size_t joint) noexcept;
+
+/// Works out accelerations and joint loads as they are at t_ns: before sample_joint().
+void observe(Vehicle& vehicle, std::int64_t t_ns) noexcept;
 
 /// |H_I - H_0 - impulse| / max(|H_I|, |impulse|); 0 at rest, NaN when the momentum is no number.
 double momentum_residual_relative(const Vehicle& vehicle) noexcept;

@@ -93,6 +93,7 @@ inline bool restore(Fleet& fleet, const FleetState& saved) {
     vehicle.H_0 = state.H_0;
     vehicle.E_0 = state.E_0;
     words = load_memory(vehicle, words);
+    share_accounts(vehicle);
     if (vehicle.wheels != nullptr) {
       for (SpinningWheel<double>& spinning : vehicle.wheels->spinning) {
         spinning.h = saved.wheel_momenta[wheel++];

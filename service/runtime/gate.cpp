@@ -52,7 +52,8 @@ Vec3<double> CommandGate::limit_of(const Actuator& actuator, Quantity quantity) 
   using scene::ActuatorKind;
   switch (quantity) {
     case Quantity::torque:
-      return actuator.kind == ActuatorKind::torque || actuator.kind == ActuatorKind::wheel
+      return actuator.kind == ActuatorKind::torque || actuator.kind == ActuatorKind::wheel ||
+                     actuator.kind == ActuatorKind::joint
                  ? actuator.limit
                  : Vec3<double>{};
     case Quantity::wheel_speed:
@@ -309,6 +310,9 @@ void CommandGate::begin(const Beat& beat, Fleet* fleet) noexcept {
           break;
         case scene::ActuatorKind::thruster:
           advance(actuator, beat, std::get<Thruster<double>>(vehicle.torques[actuator.moves]));
+          break;
+        case scene::ActuatorKind::joint:
+          advance(actuator, beat, vehicle.linked->motors[actuator.moves].window);
           break;
       }
     }

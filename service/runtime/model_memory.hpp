@@ -20,6 +20,23 @@ void for_each_memory(AnyVehicle& vehicle, const Each& each) noexcept {
       each(coils->settled);
     }
   }
+  if (vehicle.linked != nullptr) {
+    if constexpr (requires { vehicle.linked->state; }) {
+      for (auto& body : vehicle.linked->state.bodies) {
+        each(body);
+      }
+      for (auto& coordinates : vehicle.linked->state.coordinates) {
+        each(coordinates);
+      }
+    } else {  // of a scene, which has no state yet: as many words
+      for (std::size_t i = 0; i < vehicle.linked->bodies.size(); ++i) {
+        each(multibody::BodyState<double>{});
+      }
+      for (std::size_t i = 0; i < vehicle.linked->joints.size(); ++i) {
+        each(std::array<double, 3>{});
+      }
+    }
+  }
 }
 
 template <class Record>

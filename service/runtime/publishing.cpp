@@ -40,11 +40,15 @@ void Tick::publish(std::uint64_t step, bool everything) noexcept {
   }
   const bool wheels = due_at(step, telemetry_.wheel_every, everything);
   const bool pointing = due_at(step, telemetry_.pointing_every, everything);
+  const bool linked = due_at(step, telemetry_.linked_every, everything);
   for (const std::uint32_t spacecraft : telemetry_.watched) {
     if (wheels && !push_wheels(spacecraft, 0, step)) {
       add(report_.telemetry_lost, 1);
     }
     if (pointing && !push_pointing(spacecraft, 0, step)) {
+      add(report_.telemetry_lost, 1);
+    }
+    if (linked && !push_linked(spacecraft, 0, step)) {
       add(report_.telemetry_lost, 1);
     }
   }
@@ -54,7 +58,7 @@ void Tick::publish(std::uint64_t step, bool everything) noexcept {
   const std::size_t verdicts = segment_->verdicts.size();
   raise(report_.most_verdicts, verdicts);
   raise(report_.most_telemetry, segment_->telemetry.size());
-  if (topics != 0 || fleet || wheels || pointing || verdicts > 0 || answers_wait()) {
+  if (topics != 0 || fleet || wheels || pointing || linked || verdicts > 0 || answers_wait()) {
     wake_bridge(*segment_);
   }
 }
@@ -90,6 +94,35 @@ bool Tick::push_wheels(std::uint32_t spacecraft, std::uint32_t flags, std::uint6
     record.step = step;
     record.time_ns = static_cast<std::int64_t>(step) * step_ns_;
     segment_->wheels.push(record);
+  }
+  return true;
+}
+
+/// Its bodies and joints, all of them or none.
+bool Tick::push_linked(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept {
+  Vehicle& vehicle = fleet_.vehicles()[spacecraft];
+  if (vehicle.linked == nullptr) {
+    return true;
+  }
+  const std::size_t bodies = vehicle.linked->assembly.bodies().size();
+  const std::size_t joints = vehicle.linked->assembly.joints().size();
+  if (segment_->bodies.room() < bodies || segment_->joints.room() < joints) {
+    return false;
+  }
+  const std::int64_t time_ns = static_cast<std::int64_t>(step) * step_ns_;
+  observe(vehicle, time_ns);
+  const auto push = [&](auto record, auto& ring) {
+    record.spacecraft = spacecraft;
+    record.flags |= flags;
+    record.step = step;
+    record.time_ns = time_ns;
+    ring.push(record);
+  };
+  for (std::size_t i = 0; i < bodies; ++i) {
+    push(sample_body(vehicle, i), segment_->bodies);
+  }
+  for (std::size_t i = 0; i < joints; ++i) {
+    push(sample_joint(vehicle, i), segment_->joints);
   }
   return true;
 }
@@ -155,6 +188,9 @@ void Tick::publish_final(int patience_ms) {
     }
     if (telemetry_.wheel_every != 0) {
       patiently([&] { return push_wheels(spacecraft, kFlagFinal, step); });
+    }
+    if (telemetry_.linked_every != 0) {
+      patiently([&] { return push_linked(spacecraft, kFlagFinal, step); });
     }
     if (telemetry_.pointing_every != 0) {
       patiently([&] { return push_pointing(spacecraft, kFlagFinal, step); });

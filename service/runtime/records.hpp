@@ -98,6 +98,7 @@ inline constexpr std::uint32_t kFlagUnresolvedDamping = 8;
 inline constexpr std::uint32_t kFlagLightAxis = 16;
 inline constexpr std::uint32_t kFlagSeparatrix = 32;
 inline constexpr std::uint32_t kFlagAttitudeLost = 64;
+inline constexpr std::uint32_t kFlagJointOpen = 128;
 
 /// One spacecraft at one step.
 struct TelemetryRecord {
@@ -133,6 +134,35 @@ struct WheelRecord {
   double momentum_n_m_s = 0;
   double motor_torque_n_m = 0;
   double friction_torque_n_m = 0;
+};
+
+/// One of the linked bodies of a spacecraft at one step, about the common centre of mass.
+struct BodyRecord {
+  std::uint32_t spacecraft = 0;
+  std::uint32_t body = 0;
+  std::uint32_t flags = 0;  ///< kFlag...
+  std::uint32_t reserved = 0;
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  std::array<double, 4> q_IB{};  ///< w, x, y, z
+  std::array<double, 3> omega_B_rad_s{};
+  std::array<double, 3> position_I_m{};
+  std::array<double, 3> velocity_I_m_s{};
+};
+
+/// One joint of theirs: coordinates in the order of its kind, what it carries to the body that it leads to.
+struct JointRecord {
+  std::uint32_t spacecraft = 0;
+  std::uint32_t joint = 0;
+  std::uint32_t flags = 0;
+  std::uint32_t coordinates = 0;  ///< how many are free
+  std::uint64_t step = 0;
+  std::int64_t time_ns = 0;
+  std::array<double, 3> coordinate{};    ///< [rad] or [m]
+  std::array<double, 3> rate{};          ///< [rad/s] or [m/s]
+  std::array<double, 3> motor_torque{};  ///< [N m] or [N]
+  std::array<double, 3> force_I_n{};     ///< constraint, spring, damper, stops and motor together
+  std::array<double, 3> couple_I_n_m{};
 };
 
 /// Flags of a PointingRecord, beside kFlagFinal; same values as in idl/telemetry.idl.

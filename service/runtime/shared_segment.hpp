@@ -60,6 +60,8 @@ struct SharedSegment {
   SpscRing<VerdictRecord, 8192> verdicts;              ///< tick → bridge
   SpscRing<TelemetryRecord, 16384> telemetry;          ///< tick → bridge
   SpscRing<WheelRecord, 8192> wheels;                  ///< tick → bridge
+  SpscRing<BodyRecord, 8192> bodies;                   ///< tick → bridge
+  SpscRing<JointRecord, 8192> joints;                  ///< tick → bridge
   SpscRing<PointingRecord, 8192> pointing;             ///< tick → bridge
   SpscRing<StepRequestRecord, 64> step_requests;       ///< bridge → tick
   SpscRing<StepReplyRecord, 256> step_replies;         ///< tick → bridge

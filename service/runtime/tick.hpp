@@ -164,6 +164,7 @@ class Tick {
   bool push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
                    std::uint64_t step) noexcept;
   bool push_wheels(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
+  bool push_linked(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
   bool push_pointing(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
   void write_fleet(std::uint64_t step, std::uint32_t flags) noexcept;
 

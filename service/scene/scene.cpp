@@ -58,6 +58,12 @@ const Spacecraft* first_with_wheels(const std::vector<Spacecraft>& spacecraft) {
   return found == spacecraft.end() ? nullptr : &*found;
 }
 
+const Spacecraft* first_linked(const std::vector<Spacecraft>& spacecraft) {
+  const auto found = std::find_if(spacecraft.begin(), spacecraft.end(),
+                                  [](const Spacecraft& craft) { return craft.linked != nullptr; });
+  return found == spacecraft.end() ? nullptr : &*found;
+}
+
 const Spacecraft* first_with_reference(const std::vector<Spacecraft>& spacecraft) {
   const auto found =
       std::find_if(spacecraft.begin(), spacecraft.end(),
@@ -91,6 +97,14 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
         fmt::format("a scheme that does, since {} has some: coadjoint_* in double, projected_*, "
                     "quaternion_rk4",
                     in_quotes(with_wheels->name)),
+        in_quotes(scheme_names().front()));
+  }
+  if (const Spacecraft* linked = first_linked(fleet.spacecraft);
+      linked != nullptr && !multibody::links_bodies(scene.simulation.scheme)) {
+    section.scheme.refuse_as(
+        fmt::format("{}, which does not step linked bodies", in_quotes(scene.simulation.scheme)),
+        fmt::format("a scheme that does, since {} has some: coadjoint_* in double",
+                    in_quotes(linked->name)),
         in_quotes(scheme_names().front()));
   }
   scene.telemetry = read_telemetry(root, scene.simulation.step_ns, fleet);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -14,6 +15,8 @@
 
 #include "adstar/bodies/wheel.hpp"
 #include "adstar/integrators/guard.hpp"
+#include "adstar/multibody/forced.hpp"
+#include "adstar/multibody/placement.hpp"
 #include "adstar/orbit/orbit.hpp"
 #include "adstar/state.hpp"
 #include "adstar/torques/all.hpp"
@@ -73,7 +76,8 @@ enum class ActuatorKind {
   torque,        ///< Spacecraft::torques[index] is its adstar::Commanded
   wheel,         ///< the motor of Spacecraft::wheels[index]
   magnetorquer,  ///< Spacecraft::torques[index] is its adstar::Magnetorquer
-  thruster       ///< Spacecraft::torques[index] is its adstar::Thruster
+  thruster,      ///< Spacecraft::torques[index] is its adstar::Thruster
+  joint          ///< LinkedBodies::motors[index]
 };
 
 /// What can be commanded.
@@ -98,6 +102,14 @@ struct PointingTarget {
   Quat<double> attitude{};  ///< of the body in that frame, unit
 };
 
+/// What a spacecraft of several bodies is made of, placed: the common centre of mass at rest in the origin.
+struct LinkedBodies {
+  std::vector<multibody::BodySpec<double>> bodies;  ///< the first is the hub, "hub"
+  std::vector<multibody::Joint<double>> joints;
+  multibody::Formulation formulation = multibody::Formulation::se3;
+  std::vector<multibody::CoordinateMotor<double>> motors;
+};
+
 struct Spacecraft {
   std::string name;
   Eigen::Matrix3d inertia_body_kg_m2;  ///< wheels locked
@@ -105,6 +117,9 @@ struct Spacecraft {
   std::vector<Torque<double>> torques;
   std::vector<Actuator> actuators;
   std::vector<NamedWheel> wheels;
+  std::shared_ptr<const LinkedBodies> linked;  ///< null: one body
+  std::vector<std::size_t>
+      first_torque;  ///< of linked bodies: of each among the torques, and their end
   std::optional<PointingTarget> target;  ///< none: no error is told
   std::optional<Orbit<double>> orbit;    ///< none: none is modelled
 };
@@ -115,8 +130,9 @@ struct Telemetry {
   std::uint64_t momentum_every = 0;
   std::uint64_t fleet_every = 0;
   std::vector<std::uint32_t>
-      watched;                    ///< spacecraft with AttitudeState and MomentumState of their own
-  std::uint64_t wheel_every = 0;  ///< WheelState of theirs
+      watched;                     ///< spacecraft with AttitudeState and MomentumState of their own
+  std::uint64_t wheel_every = 0;   ///< WheelState of theirs
+  std::uint64_t linked_every = 0;  ///< BodyState and JointState of linked ones
   std::uint64_t pointing_every = 0;  ///< PointingState of those with an orbit or a target
 };
 
@@ -176,6 +192,9 @@ std::vector<SpinningWheel<double>> spinning_wheels(const Spacecraft& spacecraft)
 
 /// The first spacecraft that has wheels; null when none has.
 const Spacecraft* first_with_wheels(const std::vector<Spacecraft>& spacecraft);
+
+/// The first spacecraft of linked bodies; null when all are one body.
+const Spacecraft* first_linked(const std::vector<Spacecraft>& spacecraft);
 
 /// The first spacecraft that has an orbit or a target; null when none has.
 const Spacecraft* first_with_reference(const std::vector<Spacecraft>& spacecraft);

@@ -7,6 +7,7 @@
 
 #include "adstar/bodies/rigid_body.hpp"
 #include "adstar/integrators/guard.hpp"
+#include "service/scene/body_keys.hpp"
 #include "service/scene/facet_keys.hpp"
 #include "service/scene/inertia.hpp"
 #include "service/scene/orbit_keys.hpp"
@@ -37,6 +38,7 @@ struct Plan {
   std::optional<PointingTarget> target;
   Value wheels_value;
   std::vector<WheelPlan> wheels;
+  std::unique_ptr<LinkedPlan> linked;  ///< null: one body
 };
 
 void read_names(Keys& keys, bool fleet, Plan& plan) {
@@ -168,6 +170,13 @@ Plan read_plan(Keys& keys, TorqueContext context) {
   plan.orbit = read_orbit(
       orbit, {context.scene_file, context.tables, context.earth ? &context.earth->epoch : nullptr});
   context.has_orbit = static_cast<bool>(orbit);
+  plan.linked = read_linked(keys);
+  context.linked = plan.linked.get();
+  if (plan.linked && (plan.motion == Motion::Pi_B || plan.motion == Motion::H_I)) {
+    plan.motion_value.refuse_as("a momentum of a spacecraft of several bodies",
+                                "the angular velocity of its hub",
+                                "angular_velocity_body_rad_s = [0.0, 0.0, 0.01]");
+  }
   context.orbit = &plan.orbit;
   context.facets = read_facets(keys);
   plan.target = read_target(keys.optional("pointing"), context.has_orbit);
@@ -176,13 +185,29 @@ Plan read_plan(Keys& keys, TorqueContext context) {
     drawn = drawn || torque.drawn;
   }
   std::vector<std::string> actuators;
-  for (const TorquePlan& torque : plan.torques) {
-    if (torque.actuator) {
-      actuators.push_back(torque.actuator->name);
+  if (plan.linked) {
+    for (const Actuator& motor : plan.linked->actuators) {
+      actuators.push_back(motor.name);
     }
+  }
+  for (const TorquePlan& torque : plan.torques) {
+    if (!torque.actuator) {
+      continue;
+    }
+    if (std::find(actuators.begin(), actuators.end(), torque.actuator->name) != actuators.end()) {
+      plan.linked->where.refuse_as(
+          "a motor called " + in_quotes(torque.actuator->name) + " beside an actuator of that name",
+          "a name of its own for each", "another name for one of them");
+    }
+    actuators.push_back(torque.actuator->name);
   }
   plan.wheels_value = keys.optional("wheel");
   plan.wheels = read_wheels(plan.wheels_value, std::move(actuators));
+  if (plan.linked && plan.wheels_value) {
+    plan.wheels_value.refuse_as("wheels in a spacecraft of several bodies",
+                                "one of the two: linked bodies carry no wheels yet",
+                                "a body on a revolute joint with a motor");
+  }
   read_seed(keys, drawn, plan);
   keys.refuse_unknown();
   return plan;
@@ -233,6 +258,41 @@ struct Refused {
   }
 };
 
+/// Of linked bodies body by body, and gravity on each.
+void add_torques(const Plan& plan, const RigidBody<double>& body, Draws& draws,
+                 Spacecraft& spacecraft) {
+  const std::size_t bodies = spacecraft.linked ? spacecraft.linked->bodies.size() : 1;
+  std::vector<std::vector<std::pair<Torque<double>, const TorquePlan*>>> of_body(bodies);
+  for (const TorquePlan& torque : plan.torques) {
+    const Torque<double> made = torque.make(draws);
+    if (const auto* const gravity = std::get_if<GravityGradient<double>>(&made)) {
+      for (std::size_t i = 0; i < bodies; ++i) {
+        GravityGradient<double> own = *gravity;
+        own.act_on(i == 0 ? body : RigidBody<double>(spacecraft.linked->bodies[i].inertia_B));
+        of_body[i].emplace_back(own, &torque);
+      }
+    } else {
+      of_body[torque.body].emplace_back(made, &torque);
+    }
+  }
+  for (const auto& own : of_body) {
+    if (spacecraft.linked) {
+      spacecraft.first_torque.push_back(spacecraft.torques.size());
+    }
+    for (const auto& [torque, from] : own) {
+      if (from->actuator) {
+        const ActuatorPlan& actuator = *from->actuator;
+        spacecraft.actuators.push_back({actuator.name, actuator.kind, spacecraft.torques.size(),
+                                        actuator.limit.value(draws), 0, actuator.least_on_ns});
+      }
+      spacecraft.torques.push_back(torque);
+    }
+  }
+  if (spacecraft.linked) {
+    spacecraft.first_torque.push_back(spacecraft.torques.size());
+  }
+}
+
 Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertias, Refused& motions,
                            Refused& wheels) {
   Draws draws(plan.seed, index);
@@ -253,18 +313,17 @@ Spacecraft make_spacecraft(const Plan& plan, std::size_t index, Refused& inertia
     motions.note(spacecraft.name, {"a rotation beyond the range of double",
                                    "one whose energy and momentum are finite", "a smaller vector"});
   }
-  spacecraft.torques.reserve(plan.torques.size());
-  for (const TorquePlan& torque : plan.torques) {
-    if (torque.actuator) {
-      const ActuatorPlan& plan_of = *torque.actuator;
-      spacecraft.actuators.push_back({plan_of.name, plan_of.kind, spacecraft.torques.size(),
-                                      plan_of.limit.value(draws), 0, plan_of.least_on_ns});
+  if (plan.linked) {
+    spacecraft.linked =
+        place_linked(*plan.linked, spacecraft.inertia_body_kg_m2, spacecraft.initial.q_IB,
+                     body.angular_velocity(body_momentum(spacecraft.initial)));
+    if (!spacecraft.linked) {
+      return spacecraft;
     }
-    spacecraft.torques.push_back(torque.make(draws));
-    if (auto* const gravity = std::get_if<GravityGradient<double>>(&spacecraft.torques.back())) {
-      gravity->act_on(body);
-    }
+    spacecraft.initial = make_state(spacecraft.initial.q_IB, momentum_of(*spacecraft.linked));
+    spacecraft.actuators = plan.linked->actuators;
   }
+  add_torques(plan, body, draws, spacecraft);
   spacecraft.orbit = plan.orbit;
   spacecraft.target = plan.target;
   if (!plan.wheels.empty()) {

@@ -113,6 +113,8 @@ Telemetry read_telemetry(Keys& root, std::int64_t step_ns, const Spacecrafts& fl
   const bool wheels = first_with_wheels(fleet.spacecraft) != nullptr;
   telemetry.wheel_every = read_every(keys.optional("wheel_hz"), wheels ? kWheelHz : 0.0, step_ns);
   constexpr double kPointingHz = 1.0;
+  const bool linked = first_linked(fleet.spacecraft) != nullptr;
+  telemetry.linked_every = read_every(keys.optional("linked_hz"), linked ? kWheelHz : 0.0, step_ns);
   const bool reference = first_with_reference(fleet.spacecraft) != nullptr;
   telemetry.pointing_every =
       read_every(keys.optional("pointing_hz"), reference ? kPointingHz : 0.0, step_ns);

@@ -193,6 +193,18 @@ constexpr Model kModels[] = {{Constant<double>::kName, read_constant},
 static_assert(std::size(kModels) == std::variant_size_v<Torque<double>>,
               "every model of adstar/torques/all.hpp has its keys here");
 
+/// Which of the linked bodies; the hub where the file does not say.
+std::size_t read_body_name(const Value& value, const LinkedPlan& linked) {
+  if (!value) {
+    return 0;
+  }
+  std::vector<std::string_view> names;
+  for (const auto& body : linked.linked.bodies) {
+    names.push_back(body.name);
+  }
+  return read_choice(value, names).value_or(0);
+}
+
 TorquePlan read_torque(const Value& value, const TorqueContext& context) {
   std::vector<std::string_view> names;
   for (const Model& model : kModels) {
@@ -205,6 +217,19 @@ TorquePlan read_torque(const Value& value, const TorqueContext& context) {
     return {};
   }
   TorquePlan plan = kModels[*model].read(keys, context);
+  const std::string_view name = names[*model];
+  const bool on_all = name == GravityGradient<double>::kName;
+  const bool on_outside =
+      name == Aerodynamic<double>::kName || name == SolarPressure<double>::kName;
+  if (context.linked != nullptr && on_outside) {
+    keys.complaints().add(keys.place(), keys.path() + ".model", in_quotes(name),
+                          "a model that linked bodies take: air and sunlight push, and here only "
+                          "torques reach them",
+                          "removing it");
+  }
+  if (context.linked != nullptr && !on_all) {
+    plan.body = read_body_name(keys.optional("body"), *context.linked);
+  }
   keys.refuse_unknown();
   return plan;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "service/scene/body_keys.hpp"
 #include "service/scene/earth_keys.hpp"
 #include "service/scene/fleet.hpp"
 #include "service/scene/scene.hpp"
@@ -26,6 +27,7 @@ struct TorquePlan {
   std::function<Torque<double>(Draws&)> make;  ///< empty when the block was refused
   std::optional<ActuatorPlan> actuator;
   bool drawn = false;
+  std::size_t body = 0;  ///< of linked bodies: which one it acts on
 };
 
 struct TorqueContext {
@@ -34,6 +36,7 @@ struct TorqueContext {
   const Earth* earth = nullptr;                 ///< null: the scene has no epoch
   bool has_orbit = false;                       ///< the spacecraft names one,
   const std::optional<Orbit<double>>* orbit{};  ///< which is none when it was refused
+  const LinkedPlan* linked{};                   ///< null: one body
   Facets<double> facets{};                      ///< null: the spacecraft names none
 };
 

@@ -212,7 +212,9 @@ void finish(const Assembly<T>& assembly, AssemblyState<T>& state, Workspace<T>& 
                  (se3 ? rotate(body.q_IB, exp_translation(turn, rho)) : rho));
     body.q_IB = renormalised(body.q_IB * turn.quaternion());
     body.p_I.add(sum(work.load_slopes, &LoadSlope<T>::force));
-    body.H_I.add(sum(work.load_slopes, se3 ? &LoadSlope<T>::moment_I : &LoadSlope<T>::moment));
+    const Vec3<T> impulse = sum(work.load_slopes, &LoadSlope<T>::moment_I);
+    body.H_I.add(se3 ? impulse : sum(work.load_slopes, &LoadSlope<T>::moment));
+    state.impulse_I.add(impulse);
   }
   for (std::size_t j = 0; j < joints; ++j) {
     const auto sum = [&](Vec3<T> JointSlope<T>::*member) {

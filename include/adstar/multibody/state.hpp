@@ -28,7 +28,8 @@ template <class T>
 struct AssemblyState {
   std::vector<BodyState<T>> bodies;
   std::vector<std::array<T, 3>> coordinates;  ///< by joint; angles count on through whole turns
-  Sum<T> work;  ///< of motors, dampers and external loads, not gravity [J]
+  VecSum<T> impulse_I;  ///< of loads and gravity about the origin of I, since the start [N m s]
+  Sum<T> work;          ///< of motors, dampers and external loads, not gravity [J]
   friend bool operator==(const AssemblyState&, const AssemblyState&) = default;
 };
 

@@ -1,0 +1,165 @@
+#pragma once
+// One step of linked bodies under the torques that act on each, with motors that somebody commands: split where one
+// of them has an edge, as propagator.hpp does it for a body alone.
+//
+// Beside the torques that are named, the gravity of a point mass pulls harder on what is nearer: about the common centre
+// of mass, in free fall, a body at x feels
+//   F = m μ/r³ (3 (x·u) u - x),   u to the spacecraft, r its distance
+// (Hill 1878; terms of x²/r² left out), the tide, which stretches a tether. With the gravity gradient on each body
+// (torques/gravity_gradient.hpp) that is the gravity gradient of the whole.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "adstar/integrators/all.hpp"
+#include "adstar/multibody/advance.hpp"
+#include "adstar/orbit/orbit.hpp"
+#include "adstar/segment.hpp"
+#include "adstar/torques/commanded.hpp"
+
+namespace adstar::multibody {
+
+/// Whether linked bodies are stepped by a scheme of that name: the coadjoint family in double.
+template <class Scheme>
+concept LinksBodies = std::is_same_v<Scheme, Coadjoint<typename Scheme::Nodes>>;
+
+inline bool links_bodies(std::string_view scheme) {
+  bool links = false;
+  with_scheme(scheme, [&](auto s) { links = LinksBodies<decltype(s)>; });
+  return links;
+}
+
+/// The motor of one free coordinate: a torque [N m], or a force [N], in x of what is commanded; `standing` else.
+template <class T>
+struct CoordinateMotor {
+  std::size_t joint = 0, coordinate = 0;
+  T standing{};
+  Commanded<T> window{};
+
+  T at(std::int64_t t_ns) const {
+    const TorqueInterval<T>* const interval =
+        in_force(std::span<const TorqueInterval<T>>(window.window.data(), window.intervals), t_ns);
+    return interval == nullptr ? standing : interval->torque_n_m.x;
+  }
+};
+
+/// Everything that one spacecraft of linked bodies flies with; all memory is made here.
+template <class T>
+struct LinkedFlight {
+  explicit LinkedFlight(Assembly<T> of)
+      : assembly(std::move(of)),
+        work(assembly),
+        state(make_state(assembly)),
+        motor_torques(assembly.joints().size()),
+        first_torque(assembly.bodies().size() + 1),
+        segments(assembly.bodies().size()) {}
+
+  Assembly<T> assembly;
+  Workspace<T> work;
+  AssemblyState<T> state;
+  std::vector<CoordinateMotor<T>> motors;
+  std::vector<std::array<T, 3>> motor_torques;  ///< by joint, in force over the segment
+  std::vector<std::size_t> first_torque;        ///< of each body among the torques, and their end
+  std::vector<adstar::detail::Segment<T>> segments;
+  std::optional<Orbit<T>> tide;  ///< none: no tide
+};
+
+/// Sets motor_torques to what is in force at t_ns.
+template <class T>
+void set_motors(LinkedFlight<T>& flight, std::int64_t t_ns) noexcept {
+  for (std::array<T, 3>& each : flight.motor_torques) {
+    each = {};
+  }
+  for (const CoordinateMotor<T>& motor : flight.motors) {
+    flight.motor_torques[motor.joint][motor.coordinate] = motor.at(t_ns);
+  }
+}
+
+template <class T>
+std::span<const Torque<T>> torques_of(const LinkedFlight<T>& flight, std::span<const Torque<T>> all,
+                                      std::size_t body) {
+  const std::size_t first = flight.first_torque[body];
+  return all.subspan(first, flight.first_torque[body + 1] - first);
+}
+
+/// What acts on a body at a stage, the segment having begun at t_s.
+template <class T>
+BodyLoad<T> load_of(const LinkedFlight<T>& flight, std::span<const Torque<T>> all, const T& t_s,
+                    const LoadStage<T>& stage) {
+  const auto& segment = flight.segments[stage.body];
+  const std::span<const Torque<T>> own = torques_of(flight, all, stage.body);
+  TorqueSample<T> tau = adstar::detail::torque_at(segment, own, t_s, stage.time_s);
+  const BodyMotion<T>& motion = stage.motion;
+  const T now_s = t_s + stage.time_s;
+  if (segment.oriented || segment.damped) {
+    const Rotation<T> none(Vec3<T>{});
+    const Stage<T> at{stage.time_s, rotate_inverse(motion.q_IB, motion.omega_I), motion.q_IB, none};
+    adstar::detail::add_stage_torques(tau, segment, own, now_s, at);
+  }
+  BodyLoad<T> load{tau.body, tau.inertial, {}, {}};
+  if (flight.tide) {
+    const OrbitPosition<T> place = position_at(*flight.tide, now_s);
+    const T& r = place.distance_m;
+    const T strength =
+        flight.assembly.bodies()[stage.body].mass * (gravity_of(*flight.tide) / r / r / r);
+    const Vec3<T>& u = place.direction_I;
+    load.force_I = strength * (T(3) * dot(motion.x_I, u) * u - motion.x_I);
+  }
+  return load;
+}
+
+/// Advances the flight from t_ns to t_ns + h_ns [ns] under `torques`, body by body as first_torque has them. Never
+/// throws, never allocates. `edges`: at most so many segments; past it `edges_left` is set and the rest of the step
+/// takes what is in force at its beginning.
+template <class Tableau, class T>
+AssemblyReport<T> advance(LinkedFlight<T>& flight, std::span<const Torque<T>> torques,
+                          std::int64_t t_ns, std::int64_t h_ns, const AssemblyLimits& limits,
+                          std::int64_t edges, bool& edges_left) noexcept {
+  AssemblyReport<T> all;
+  edges_left = false;
+  const std::int64_t end_ns = t_ns + h_ns;
+  for (std::int64_t segments = 0; t_ns < end_ns; ++segments) {
+    std::int64_t next_ns = adstar::detail::next_edge_after(torques, t_ns);
+    for (const CoordinateMotor<T>& motor : flight.motors) {
+      next_ns = std::min(next_ns, motor.window.next_edge_after(t_ns));
+    }
+    edges_left = edges_left || (next_ns < end_ns && segments >= edges);
+    next_ns = next_ns < end_ns && segments < edges ? next_ns : end_ns;
+    set_motors(flight, t_ns);
+    bool loaded = flight.tide.has_value();
+    for (std::size_t i = 0; i < flight.segments.size(); ++i) {
+      const std::span<const Torque<T>> own = torques_of(flight, torques, i);
+      flight.segments[i] = adstar::detail::make_segment(own, t_ns);
+      loaded = loaded || !own.empty();
+    }
+    const std::array<T, 3>* const motors =
+        flight.motors.empty() ? nullptr : flight.motor_torques.data();
+    const T t_s = seconds<T>(t_ns);
+    const auto load = [&](const LoadStage<T>& stage) {
+      return load_of(flight, torques, t_s, stage);
+    };
+    const AssemblyReport<T> part =
+        loaded ? advance<Tableau>(flight.assembly, flight.work, flight.state, next_ns - t_ns,
+                                  motors, load, limits)
+               : advance<Tableau>(flight.assembly, flight.work, flight.state, next_ns - t_ns,
+                                  motors, NoLoad{}, limits);
+    all.parts += part.parts;
+    all.unresolved_angle = all.unresolved_angle || part.unresolved_angle;
+    all.unresolved_gap = all.unresolved_gap || part.unresolved_gap;
+    all.unresolved_stiffness = all.unresolved_stiffness || part.unresolved_stiffness;
+    all.at_dead_point = all.at_dead_point || part.at_dead_point;
+    all.lost = all.lost || part.lost;
+    all.gap = std::max(all.gap, part.gap);
+    all.gap_rate = std::max(all.gap_rate, part.gap_rate);
+    t_ns = next_ns;
+  }
+  return all;
+}
+
+}  // namespace adstar::multibody
