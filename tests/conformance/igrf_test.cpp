@@ -61,9 +61,9 @@ V components(const HarmonicField<double>& field, const Ground& at) {
   return {dot(B, at.north), dot(B, at.east), dot(B, at.down)};
 }
 
-TEST(Igrf14, columns_have_the_sums_of_the_published_table) {
-  // Plain, and weighted by the row's number: of 1990 to 2010 worked out from an independent copy of the definitive models (IGRF-12 as
-  // Debian's casacore-data-igrf 12 has it), of 2015 to 2025 and the yearly change from IAGA's table in two copies.
+TEST(Igrf14, columns_have_the_sums_that_they_had_when_they_were_compared) {
+  // Plain, and weighted by the row's number, of the table as it was when it was compared with its sources (earth/igrf14.hpp): no number
+  // has changed or moved since.
   constexpr double kSums[9][2] = {
       {-23775.00, 20050.00}, {-23969.00, 18737.00}, {-24282.20, 15657.70},
       {-24604.02, 13668.83}, {-24868.33, 12075.01}, {-25159.22, 10415.82},

@@ -64,12 +64,12 @@ TEST(Air, is_that_of_the_table_at_its_altitudes_and_in_between) {
   EXPECT_EQ(air_density(-1.0), 1.225);
 }
 
-TEST(Air, has_layers_that_meet_within_half_a_percent_and_thins_upwards) {
+TEST(Air, has_layers_that_meet_and_thins_upwards) {
   double before = 2;
   for (std::size_t i = 1; i < kAirLayers.size(); ++i) {
     const double h = 1e3 * kAirLayers[i].base_km;
     const double jump = air_density(std::nextafter(h, 0.0)) / air_density(h);
-    EXPECT_NEAR(jump, 1, 0.005) << kAirLayers[i].base_km;
+    EXPECT_NEAR(jump, 1, i == 1 ? 1.4e-3 : 1e-4) << kAirLayers[i].base_km;
     EXPECT_LT(air_density(h), before);
     before = air_density(h);
   }
@@ -130,6 +130,26 @@ TEST(Sun, is_at_the_equinoxes_and_solstices_when_the_calendar_says_so) {
   EXPECT_NEAR(longitude_of_date(days_since_J2000(2459114.5 + 811 / 1440.0) + kDelay), 180, 0.012);
   EXPECT_NEAR(longitude_of_date(days_since_J2000(2459204.5 + 602 / 1440.0) + kDelay), 270, 0.012);
   EXPECT_NEAR(longitude_of_date(days_since_J2000(2451623.5 + 455 / 1440.0)), 0, 0.012);
+}
+
+TEST(Sun, is_where_a_full_theory_has_it_to_a_hundredth_of_a_degree) {
+  // ERFA 2.0 (eraEpv00: VSOP87's main terms, 5e-8 au), the Sun from the Earth in the axes of the ICRF [au], moved by the aberration of
+  // light; days since J2000 (TDB). Over the whole of 1950 to 2050 the worst is 0.0112°.
+  struct Case {
+    double days;
+    V sun_au;
+  };
+  constexpr Case kCases[] = {
+      {-18000, {-1.0032620, 0.0378966, 0.0164229}}, {-9000, {0.6290581, 0.7252603, 0.3144903}},
+      {0, {0.1770374, -0.8874449, -0.3847500}},     {3653, {0.1845127, -0.8861406, -0.3841655}},
+      {7305, {0.1748608, -0.8877808, -0.3848553}},  {9500, {0.2340294, -0.8762625, -0.3798436}},
+      {9800, {-0.7855454, -0.5570372, -0.2414576}}, {12000, {-0.6860243, -0.6557681, -0.2842452}},
+      {18000, {0.9208678, 0.3639875, 0.1577453}}};
+  for (const Case& c : kCases) {
+    const SunPosition<double> sun = SunMotion<double>{c.days}.at(0);
+    EXPECT_LT(norm(cross(sun.direction_I, c.sun_au)) / norm(c.sun_au) / kDegree, 0.012) << c.days;
+    EXPECT_NEAR(sun.distance_au, norm(c.sun_au), 1e-4) << c.days;
+  }
 }
 
 TEST(Sun, comes_nearest_in_january) {

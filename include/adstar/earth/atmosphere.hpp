@@ -3,7 +3,7 @@
 //
 //   ρ(h) = ρ_i exp(-(h - h_i)/H_i),   h_i ≤ h < h_i+1
 // (Vallado, Fundamentals of Astrodynamics and Applications, 4th ed., 2013, table 8-4: U.S. Standard Atmosphere 1976 to 25 km,
-// CIRA-72 to 500 km, CIRA-72 with an exospheric temperature of 1,000 K beyond). The pieces meet within half a percent. Left out:
+// CIRA-72 to 500 km, CIRA-72 with an exospheric temperature of 1,000 K beyond). The pieces meet within 1e-4 (1.4e-3 at 25 km). Left out:
 // day and night, the Sun's activity (a factor of 10 at 500 km between its extremes: density_factor), storms, winds.
 
 #include <array>

@@ -5,7 +5,9 @@
 //
 // A row a coefficient, in the order g10, g11, h11, g20, g21, h21, g22, h22, ..., h13,13. Its columns: the main field of 1990,
 // 1995, ... 2020 (definitive) and 2025, then its yearly change from 2025 to 2030. 1990 and 1995 end at degree 10, the change at
-// degree 8. tests/conformance/igrf_test.cpp holds sums over the columns and values of the field that others published.
+// degree 8. 1990 to 2010 were taken from Debian's casacore-data-igrf 12, 2015 on from a copy of IAGA's table; 2010 on was compared
+// number by number with the copy in apex.f (Richmond, Barnes, Emmert): no difference. tests/conformance/igrf_test.cpp holds sums over the
+// columns, and values of the field that others published.
 
 #include <array>
 #include <cstddef>

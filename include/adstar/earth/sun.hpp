@@ -1,5 +1,5 @@
 #pragma once
-// Where the Sun is, to 0.01° between 1950 and 2050, and how far.
+// From where the Sun shines, to 0.012° between 1950 and 2050 (the aberration of light in it), and how far it is, to 1e-4 au.
 //
 //   M = 357.5291092° + 35999.05034° T,   λ = 280.460° + 36000.771° T + 1.914666471° sin M + 0.019994643° sin 2M
 //   d = 1.000140612 - 0.016708617 cos M - 0.000139589 cos 2M au,   T Julian centuries since J2000
