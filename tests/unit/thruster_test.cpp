@@ -108,37 +108,6 @@ TEST(Thruster, scheduled_is_the_thruster_commanded_so) {
   }
 }
 
-TEST(Thruster, lasts_its_least_time_when_the_window_has_forgotten_it) {
-  // As a gate writes windows: at each step's beginning, what ends after it and begins before the step's end.
-  const std::vector<OnInterval> commands{
-      {103, 104}, {250, 260}, {277, 278}, {300, 450}, {601, 650}};
-  const auto whole = commanded(commands, 90);
-  for (const std::int64_t step : {1, 7, 50, 100, 1000}) {
-    auto thruster = commanded({}, 90);
-    for (std::int64_t t = 0; t < 1000; t += step) {
-      thruster.carry_to(t);
-      thruster.intervals = 0;
-      for (const OnInterval& command : commands) {
-        if (command.end_ns > t && command.start_ns < t + step) {
-          thruster.window.at(thruster.intervals++) = command;
-        }
-      }
-      for (std::int64_t at = t; at < t + step; ++at) {
-        ASSERT_EQ(thruster.is_on(at), whole.is_on(at)) << step << " " << at;
-        ASSERT_TRUE(thruster.is_on(at) == thruster.is_on(at + 1) ||
-                    thruster.next_edge_after(at) == at + 1 || at + 1 == t + step);
-      }
-    }
-  }
-  // Nor does a command that takes its place cut it short.
-  auto thruster = commanded({{100, 900}}, 90);
-  thruster.carry_to(150);
-  thruster.intervals = 0;
-  EXPECT_TRUE(thruster.is_on(150));
-  EXPECT_EQ(thruster.next_edge_after(150), 190);
-  EXPECT_FALSE(thruster.is_on(190));
-}
-
 TEST(Thruster, commanded_for_ever_goes_on_for_ever) {
   EXPECT_EQ(off_at({kNever - 10, kNever - 5}, 1000), kNever);
   EXPECT_EQ(off_at({5, kNever}, 1000), kNever);

@@ -8,9 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <iterator>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -63,31 +60,15 @@ struct Thruster {
   Vec3<T> torque_n_m;              ///< while on
   std::int64_t minimum_on_ns = 0;  ///< for the window; a schedule has it in it
   OnSchedule schedule{};           ///< make_on_schedule(); null: the window is in force
-  /// Ascending by start. One that has begun may go from it at a step's beginning, if carry_to() was asked before.
+  /// Ascending by start. An interval must stay in it until off_at(), or the thruster goes off with it: the service's gate
+  /// lengthens what it commands itself.
   std::array<OnInterval, kWindow> window{};
   std::size_t intervals = 0;
-  /// What is left of a least time that the window may have forgotten: on until then. The only state; to be saved.
-  std::int64_t on_until_ns = std::numeric_limits<std::int64_t>::min();
-
-  /// Before the window is written anew for the step at t_ns: what has begun lasts its least time, whatever becomes of
-  /// the command. From then on only times from t_ns on are asked for.
-  void carry_to(std::int64_t t_ns) {
-    for (std::size_t i = 0; i < intervals; ++i) {
-      const OnInterval& interval = window[i];
-      if (interval.start_ns < t_ns && interval.start_ns < interval.end_ns) {
-        on_until_ns =
-            std::max(on_until_ns, off_at({interval.start_ns, interval.start_ns}, minimum_on_ns));
-      }
-    }
-  }
 
   bool is_on(std::int64_t t_ns) const {
     if (schedule) {
       const auto next = next_in_schedule(t_ns);
       return next != schedule->begin() && t_ns < std::prev(next)->end_ns;
-    }
-    if (t_ns < on_until_ns) {
-      return true;
     }
     for (std::size_t i = 0; i < intervals; ++i) {
       const OnInterval& interval = window[i];
@@ -120,7 +101,6 @@ struct Thruster {
       }
       return edge;
     }
-    consider(on_until_ns);
     for (std::size_t i = 0; i < intervals; ++i) {
       if (window[i].start_ns < window[i].end_ns) {
         consider(window[i].start_ns);
