@@ -82,6 +82,9 @@ std::uint64_t Commander::give(const Order& order) {
     case Ordered::thrust:
       make(thrusters_);
       break;
+    case Ordered::joint_torque:
+      make(joints_);
+      break;
   }
   dispatch.heard = dispatch.next_send = Clock::now();
   dispatches_.emplace(sequence, std::move(dispatch));
@@ -98,6 +101,8 @@ Command Commander::header_of(std::uint64_t sequence, const Order& order) const {
     dds::set_text(command.magnetorquer, target_.actuator);
   } else if constexpr (requires { command.thruster; }) {
     dds::set_text(command.thruster, target_.actuator);
+  } else if constexpr (requires { command.joint; }) {
+    dds::set_text(command.joint, target_.actuator);
   } else {
     dds::set_text(command.actuator, target_.actuator);
   }
@@ -140,13 +145,19 @@ void Commander::send(std::uint64_t sequence, const Order& order) {
     case Ordered::thrust:
       thrusters_->write(header_of<adstar_ThrusterCommand>(sequence, order));
       break;
+    case Ordered::joint_torque: {
+      auto command = header_of<adstar_JointTorqueCommand>(sequence, order);
+      command.motor_torque_n_m = order.torque_n_m[0];
+      joints_->write(command);
+      break;
+    }
   }
 }
 
 bool Commander::heard_by_anyone() const {
   const auto heard = [](const auto& writer) { return writer && writer->matched() > 0; };
   return heard(torques_) || heard(wheel_torques_) || heard(wheel_speeds_) || heard(dipoles_) ||
-         heard(thrusters_);
+         heard(thrusters_) || heard(joints_);
 }
 
 void Commander::work(std::chrono::milliseconds patience) {

@@ -17,7 +17,7 @@
 
 namespace adstar::cli {
 
-enum class Ordered { torque, wheel_torque, wheel_speed, dipole, thrust };
+enum class Ordered { torque, wheel_torque, wheel_speed, dipole, thrust, joint_torque };
 
 struct Order {
   Ordered what = Ordered::torque;
@@ -25,7 +25,7 @@ struct Order {
   std::int64_t start_ns = runtime::kStartAtNextBeat;
   std::int64_t end_ns = 0;              ///< exclusive; 0 with a duration
   std::int64_t duration_ns = 0;         ///< 0 with an end
-  std::array<double, 3> torque_n_m{};   ///< of a wheel: x
+  std::array<double, 3> torque_n_m{};   ///< of a wheel or a joint: x
   double speed_rad_s = 0;               ///< of a wheel
   std::array<double, 3> dipole_a_m2{};  ///< of a magnetorquer, in B
 };
@@ -109,6 +109,7 @@ class Commander {
   std::optional<dds::Writer<adstar_WheelSpeedCommand>> wheel_speeds_;
   std::optional<dds::Writer<adstar_DipoleCommand>> dipoles_;
   std::optional<dds::Writer<adstar_ThrusterCommand>> thrusters_;
+  std::optional<dds::Writer<adstar_JointTorqueCommand>> joints_;
   dds::Reader<adstar_CommandStatus> reader_;
   dds::WaitSet wait_set_;
 };

@@ -26,7 +26,7 @@ namespace {
 
 struct Options {
   std::string scene;
-  std::string output, wheels, pointing;
+  std::string output, wheels, pointing, bodies, joints;
   std::size_t threads = 1;
   PropagateRequest request;
 };
@@ -58,6 +58,61 @@ void write_rows(Output& output, const scene::Scene& scene, const runtime::Fleet&
   }
 }
 
+/// The files beside the motion, those that were asked for.
+class SideOutputs {
+ public:
+  SideOutputs(const Options& options, const scene::Scene& scene) {
+    open(wheels_, "--wheels", options.wheels, kWheelColumns,
+         scene::first_with_wheels(scene.spacecraft) != nullptr, "the scene has no wheels");
+    open(pointing_, "--pointing", options.pointing, kPointingColumns,
+         scene::first_with_reference(scene.spacecraft) != nullptr,
+         "no spacecraft of the scene has an orbit or a target");
+    const bool linked = scene::first_linked(scene.spacecraft) != nullptr;
+    const char* const none = "no spacecraft of the scene has linked bodies";
+    open(bodies_, "--bodies", options.bodies, kBodyColumns, linked, none);
+    open(joints_, "--joints", options.joints, kJointColumns, linked, none);
+  }
+
+  void write(const scene::Scene& scene, runtime::Fleet& fleet, std::uint64_t step,
+             std::int64_t time_ns) {
+    if (wheels_) {
+      write_wheels(*wheels_, scene, fleet, step, time_ns);
+    }
+    if (pointing_) {
+      write_pointing(*pointing_, scene, fleet, step, time_ns);
+    }
+    if (bodies_) {
+      write_bodies(*bodies_, scene, fleet, step, time_ns);
+    }
+    if (joints_) {
+      write_joints(*joints_, scene, fleet, step, time_ns);
+    }
+  }
+
+  void commit() {
+    for (std::optional<Output>* const output : {&wheels_, &pointing_, &bodies_, &joints_}) {
+      if (*output) {
+        (*output)->commit();
+      }
+    }
+  }
+
+ private:
+  static void open(std::optional<Output>& output, const char* option, const std::string& file,
+                   const char* columns, bool there_are_some, const char* none) {
+    if (file.empty()) {
+      return;
+    }
+    if (!there_are_some) {
+      throw Failure(kUsage, fmt::format("{}: {}; leave it out", option, none));
+    }
+    output.emplace(Output::to_file(file));
+    output->buffer() = columns;
+  }
+
+  std::optional<Output> wheels_, pointing_, bodies_, joints_;
+};
+
 /// Nobody commands here: an actuator of the scene is still.
 void say_that_actuators_rest(const scene::Scene& scene) {
   std::size_t count = 0;
@@ -74,7 +129,7 @@ void say_that_actuators_rest(const scene::Scene& scene) {
         count > 1 ? fmt::format(" and {} more", report::counted(count - 1)) : "";
     fmt::print(stderr,
                "adstar propagate: nobody commands {}{} here; to command it, run adstard, and "
-               "`adstar torque`, `wheel`, `dipole` or `fire`\n",
+               "`adstar torque`, `wheel`, `dipole`, `fire` or `joint`\n",
                first, more);
   }
 }
@@ -88,31 +143,10 @@ int propagate(const Options& options) {
                        runtime::Lanewise::automatic, options.threads);
   say_that_actuators_rest(scene);
 
-  std::optional<Output> wheels, pointing;
-  if (!options.wheels.empty()) {
-    if (scene::first_with_wheels(scene.spacecraft) == nullptr) {
-      throw Failure(kUsage, "--wheels: the scene has no wheels; leave it out");
-    }
-    wheels.emplace(Output::to_file(options.wheels));
-    wheels->buffer() = kWheelColumns;
-  }
-  if (!options.pointing.empty()) {
-    if (scene::first_with_reference(scene.spacecraft) == nullptr) {
-      throw Failure(kUsage,
-                    "--pointing: no spacecraft of the scene has an orbit or a target; name one in "
-                    "[spacecraft.pointing], or leave it out");
-    }
-    pointing.emplace(Output::to_file(options.pointing));
-    pointing->buffer() = kPointingColumns;
-  }
+  SideOutputs beside(options, scene);
   const auto write = [&](std::uint64_t step, std::int64_t time_ns) {
     write_rows(output, scene, fleet, step, time_ns);
-    if (wheels) {
-      write_wheels(*wheels, scene, fleet, step, time_ns);
-    }
-    if (pointing) {
-      write_pointing(*pointing, scene, fleet, step, time_ns);
-    }
+    beside.write(scene, fleet, step, time_ns);
   };
   append_csv_header(output.buffer());
   write(0, 0);
@@ -140,12 +174,7 @@ int propagate(const Options& options) {
     }
   }
   output.commit();
-  if (wheels) {
-    wheels->commit();
-  }
-  if (pointing) {
-    pointing->commit();
-  }
+  beside.commit();
   if (const std::string warning = unresolved.warning(scene, plan.step_ns); !warning.empty()) {
     fmt::print(stderr, "adstar propagate: {}\n", warning);
   }
@@ -178,6 +207,12 @@ Verb add_propagate(CLI::App& program) {
       ->type_name("FILE");
   verb->add_option("--pointing", options->pointing,
                    "Write there how they point against orbit and target, whole or not at all")
+      ->type_name("FILE");
+  verb->add_option("--bodies", options->bodies,
+                   "Write the rows of linked bodies there, whole or not at all")
+      ->type_name("FILE");
+  verb->add_option("--joints", options->joints,
+                   "Write the rows of their joints there, loads too, whole or not at all")
       ->type_name("FILE");
   verb->footer(
       "Example:\n"

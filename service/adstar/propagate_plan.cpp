@@ -55,6 +55,12 @@ void require_scheme(const std::string& name, const char* option, const scene::Sc
                                       "has some; try {}",
                                       option, name, with_wheels->name, known.front()));
   }
+  if (const scene::Spacecraft* linked = scene::first_linked(scene.spacecraft);
+      linked != nullptr && !multibody::links_bodies(name)) {
+    throw Failure(kUsage, fmt::format("{}: got '{}', which does not step linked bodies, and the "
+                                      "scene's '{}' has some; try {}",
+                                      option, name, linked->name, known.front()));
+  }
 }
 
 PropagatePlan make_plan(const scene::Scene& scene, const PropagateRequest& request) {

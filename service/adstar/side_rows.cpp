@@ -1,5 +1,7 @@
 #include "service/adstar/side_rows.hpp"
 
+#include <span>
+
 #include <fmt/format.h>
 
 #include "service/report/numbers.hpp"
@@ -18,6 +20,12 @@ void append_all(std::string& text, const Numbers& numbers, bool known) {
   }
 }
 
+void begin_row(std::string& text, const std::string& spacecraft, const std::string& part,
+               std::uint64_t step, std::int64_t time_ns) {
+  fmt::format_to(std::back_inserter(text), "{},{},{},", spacecraft, part, step);
+  report::append_seconds(text, time_ns);
+}
+
 }  // namespace
 
 void write_wheels(Output& output, const scene::Scene& scene, const runtime::Fleet& fleet,
@@ -31,9 +39,7 @@ void write_wheels(Output& output, const scene::Scene& scene, const runtime::Flee
     for (std::size_t k = 0; k < vehicle.wheels->spinning.size(); ++k) {
       const runtime::WheelRecord w = runtime::sample(vehicle.wheels->spinning[k], omega_B);
       std::string& text = output.buffer();
-      fmt::format_to(std::back_inserter(text), "{},{},{},", scene.spacecraft[i].name,
-                     scene.spacecraft[i].wheels[k].name, step);
-      report::append_seconds(text, time_ns);
+      begin_row(text, scene.spacecraft[i].name, scene.spacecraft[i].wheels[k].name, step, time_ns);
       for (const double value :
            {w.speed_rad_s, w.momentum_n_m_s, w.motor_torque_n_m, w.friction_torque_n_m}) {
         text += ',';
@@ -64,6 +70,52 @@ void write_pointing(Output& output, const scene::Scene& scene, const runtime::Fl
     append_all(text, p.error_B_rad, (p.flags & runtime::kPointingTarget) != 0);
     text += '\n';
     output.flush_if_full();
+  }
+}
+
+void write_bodies(Output& output, const scene::Scene& scene, const runtime::Fleet& fleet,
+                  std::uint64_t step, std::int64_t time_ns) {
+  for (std::size_t i = 0; i < scene.spacecraft.size(); ++i) {
+    const runtime::Vehicle& vehicle = fleet.vehicles()[i];
+    const std::size_t bodies = vehicle.linked ? vehicle.linked->assembly.bodies().size() : 0;
+    for (std::size_t k = 0; k < bodies; ++k) {
+      const runtime::BodyRecord b = runtime::sample_body(vehicle, k);
+      std::string& text = output.buffer();
+      begin_row(text, scene.spacecraft[i].name, vehicle.linked->assembly.bodies()[k].name, step,
+                time_ns);
+      append_all(text, b.q_IB, true);
+      append_all(text, b.omega_B_rad_s, true);
+      append_all(text, b.position_I_m, true);
+      append_all(text, b.velocity_I_m_s, true);
+      text += '\n';
+      output.flush_if_full();
+    }
+  }
+}
+
+void write_joints(Output& output, const scene::Scene& scene, runtime::Fleet& fleet,
+                  std::uint64_t step, std::int64_t time_ns) {
+  for (std::size_t i = 0; i < scene.spacecraft.size(); ++i) {
+    runtime::Vehicle& vehicle = fleet.vehicles()[i];
+    if (vehicle.linked == nullptr) {
+      continue;
+    }
+    runtime::observe(vehicle, time_ns);
+    for (std::size_t k = 0; k < vehicle.linked->assembly.joints().size(); ++k) {
+      const runtime::JointRecord j = runtime::sample_joint(vehicle, k);
+      std::string& text = output.buffer();
+      begin_row(text, scene.spacecraft[i].name, vehicle.linked->assembly.joints()[k].name, step,
+                time_ns);
+      for (const auto& numbers : {j.coordinate, j.rate, j.motor_torque}) {
+        const std::span<const double> all(numbers);
+        append_all(text, all.first(j.coordinates), true);
+        append_all(text, all.subspan(j.coordinates), false);
+      }
+      append_all(text, j.force_I_n, true);
+      append_all(text, j.couple_I_n_m, true);
+      text += '\n';
+      output.flush_if_full();
+    }
   }
 }
 

@@ -29,4 +29,23 @@ inline constexpr const char* kPointingColumns =
 void write_pointing(Output& output, const scene::Scene& scene, const runtime::Fleet& fleet,
                     std::uint64_t step, std::int64_t time_ns);
 
+inline constexpr const char* kBodyColumns =
+    "spacecraft,body,step,time_s,attitude_body_to_inertial_w,attitude_body_to_inertial_x,"
+    "attitude_body_to_inertial_y,attitude_body_to_inertial_z,angular_velocity_body_x_rad_s,"
+    "angular_velocity_body_y_rad_s,angular_velocity_body_z_rad_s,position_inertial_x_m,"
+    "position_inertial_y_m,position_inertial_z_m,velocity_inertial_x_m_s,velocity_inertial_y_m_s,"
+    "velocity_inertial_z_m_s\n";
+
+void write_bodies(Output& output, const scene::Scene& scene, const runtime::Fleet& fleet,
+                  std::uint64_t step, std::int64_t time_ns);
+
+/// Coordinates that a joint does not have are empty.
+inline constexpr const char* kJointColumns =
+    "spacecraft,joint,step,time_s,coordinate_1,coordinate_2,coordinate_3,rate_1,rate_2,rate_3,"
+    "motor_torque_1,motor_torque_2,motor_torque_3,force_inertial_x_n,force_inertial_y_n,"
+    "force_inertial_z_n,couple_inertial_x_n_m,couple_inertial_y_n_m,couple_inertial_z_n_m\n";
+
+void write_joints(Output& output, const scene::Scene& scene, runtime::Fleet& fleet,
+                  std::uint64_t step, std::int64_t time_ns);
+
 }  // namespace adstar::cli

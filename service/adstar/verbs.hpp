@@ -20,6 +20,7 @@ Verb add_torque(CLI::App& program);
 Verb add_wheel(CLI::App& program);
 Verb add_dipole(CLI::App& program);
 Verb add_fire(CLI::App& program);
+Verb add_joint(CLI::App& program);
 Verb add_monitor(CLI::App& program);
 Verb add_list(CLI::App& program);
 Verb add_timing(CLI::App& program);

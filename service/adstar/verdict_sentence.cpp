@@ -23,6 +23,7 @@ std::string value_of(const Given& given, Ordered what) {
     case Ordered::torque:
       return vector_text(given.torque_n_m) + " N m";
     case Ordered::wheel_torque:
+    case Ordered::joint_torque:
       return fmt::format("{} N m", given.torque_n_m[0]);
     case Ordered::wheel_speed:
       return fmt::format("{} rad/s", given.speed_rad_s);
@@ -39,6 +40,7 @@ const char* name_of(Ordered what) {
     case Ordered::torque:
       return "torque ";
     case Ordered::wheel_torque:
+    case Ordered::joint_torque:
       return "motor torque ";
     case Ordered::wheel_speed:
       return "speed ";

@@ -42,6 +42,8 @@ scene::Spacecraft without_models(scene::Spacecraft craft) {
   craft.torques.clear();
   craft.wheels.clear();
   craft.actuators.clear();
+  craft.linked.reset();
+  craft.first_torque.clear();
   if (craft.initial.H_I.value() == Vec3<double>{}) {
     const RigidBody<double> body(craft.inertia_body_kg_m2);
     craft.initial = make_state(craft.initial.q_IB, body.momentum({0.01, 0.01, 0.01}));
@@ -54,14 +56,22 @@ std::string kind_of(const scene::Spacecraft& craft) {
   for (const Torque<double>& torque : craft.torques) {
     kind += std::visit([](const auto& model) { return std::string(model.kName) + " "; }, torque);
   }
-  return kind + std::to_string(craft.wheels.size()) + (craft.orbit ? " orbit" : "");
+  return kind + std::to_string(craft.linked ? craft.linked->bodies.size() : 0) + " " +
+         std::to_string(craft.wheels.size()) + (craft.orbit ? " orbit" : "");
 }
 
 std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& simulation) {
   const scene::Spacecraft bare = without_models(craft);
   const double base = step_cost_ns(bare, simulation);
   std::string text = fmt::format("    {:<20} {:>7.0f} ns\n", "rigid body", base);
+  std::set<std::string_view> told;
   for (const Torque<double>& torque : craft.torques) {
+    // Of linked bodies each has its own gravity.
+    const std::string_view name =
+        std::visit([](const auto& m) -> std::string_view { return m.kName; }, torque);
+    if (craft.linked && !told.insert(name).second) {
+      continue;
+    }
     scene::Spacecraft one = bare;
     one.torques.push_back(torque);
     const double cost = step_cost_ns(one, simulation) - base;
@@ -78,7 +88,15 @@ std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& si
                             : fmt::format("{} wheels", counted(craft.wheels.size())),
                         step_cost_ns(turning, simulation) - base);
   }
-  if (craft.torques.size() + (craft.wheels.empty() ? 0 : 1) > 1) {
+  if (craft.linked) {
+    scene::Spacecraft links = craft;
+    links.torques.clear();
+    std::fill(links.first_torque.begin(), links.first_torque.end(), 0);
+    text += fmt::format("    {:<20} {:>+7.0f} ns\n",
+                        fmt::format("{} linked bodies", counted(craft.linked->bodies.size())),
+                        step_cost_ns(links, simulation) - base);
+  }
+  if (craft.torques.size() + (craft.wheels.empty() ? 0 : 1) + (craft.linked ? 1 : 0) > 1) {
     text +=
         fmt::format("    {:<20} {:>7.0f} ns\n", "all together", step_cost_ns(craft, simulation));
   }

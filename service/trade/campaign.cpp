@@ -36,9 +36,11 @@ class Floor {
 std::vector<std::string> usable_schemes(const scene::Scene& scene) {
   const bool forced = scene::first_forced(scene.spacecraft) != nullptr;
   const bool wheels = scene::first_with_wheels(scene.spacecraft) != nullptr;
+  const bool linked = scene::first_linked(scene.spacecraft) != nullptr;
   std::vector<std::string> names;
   for (const std::string_view name : scheme_names()) {
-    if ((!forced || !claims_of(name).free_only) && (!wheels || carries_wheels(name))) {
+    if ((!forced || !claims_of(name).free_only) && (!wheels || carries_wheels(name)) &&
+        (!linked || multibody::links_bodies(name))) {
       names.emplace_back(name);
     }
   }

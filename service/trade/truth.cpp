@@ -63,6 +63,36 @@ std::vector<TrueState> by_small_steps(const scene::Spacecraft& craft,
   return states;
 }
 
+/// The same of linked bodies: the hub's attitude, the momentum and energy of the whole.
+std::vector<TrueState> linked_by_small_steps(const scene::Spacecraft& craft,
+                                             const std::vector<std::int64_t>& times_ns,
+                                             std::int64_t h_ns,
+                                             const std::function<void(std::int64_t)>& look) {
+  constexpr std::int64_t kLookEvery = 16;
+  multibody::LinkedFlight<Wide> flight = widened_flight(craft);
+  const std::vector<Torque<Wide>> torques = widened(craft.torques);
+  multibody::AssemblyLimits limits;
+  limits.substeps = 1'000'000;
+  std::vector<TrueState> states;
+  std::int64_t t_ns = 0, n = 0;
+  for (const std::int64_t end_ns : times_ns) {
+    while (t_ns < end_ns) {
+      const std::int64_t part_ns = std::min(h_ns, end_ns - t_ns);
+      bool edges_left = false;
+      multibody::advance<CoadjointFehlberg8::Nodes>(flight, std::span<const Torque<Wide>>(torques),
+                                                    t_ns, part_ns, limits, 1'000'000, edges_left);
+      t_ns += part_ns;
+      if (++n % kLookEvery == 0) {
+        look(t_ns);
+      }
+    }
+    states.push_back({flight.state.bodies.front().q_IB,
+                      multibody::total_momentum(flight.assembly, flight.state).H_I.value(),
+                      multibody::energy(flight.assembly, flight.state).total()});
+  }
+  return states;
+}
+
 double largest_angle(const std::vector<TrueState>& a, const std::vector<TrueState>& b) {
   Wide largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -101,7 +131,7 @@ Truth find_truth(const std::vector<scene::Spacecraft>& spacecraft,
   for (const scene::Spacecraft& craft : spacecraft) {
     const double before = static_cast<double>(truth.spacecraft.size()) / fleet;
     say(before);
-    if (craft.torques.empty() && craft.wheels.empty()) {
+    if (craft.torques.empty() && craft.wheels.empty() && !craft.linked) {
       truth.spacecraft.push_back(in_closed_form(craft, times_ns));
       ++free;
       continue;
@@ -109,11 +139,15 @@ Truth find_truth(const std::vector<scene::Spacecraft>& spacecraft,
     const std::int64_t horizon_ns = times_ns.back();
     std::int64_t h_ns = first_step_ns(craft, horizon_ns);
     const auto look = [&](std::int64_t) { say(before); };
-    std::vector<TrueState> coarse = by_small_steps(craft, times_ns, h_ns, look);
+    const auto run = [&](std::int64_t step_ns) {
+      return craft.linked ? linked_by_small_steps(craft, times_ns, step_ns, look)
+                          : by_small_steps(craft, times_ns, step_ns, look);
+    };
+    std::vector<TrueState> coarse = run(h_ns);
     double apart = 0;
     for (int halving = 0; halving < kHalvings && h_ns > 1; ++halving) {
       h_ns = (h_ns + 1) / 2;
-      std::vector<TrueState> fine = by_small_steps(craft, times_ns, h_ns, look);
+      std::vector<TrueState> fine = run(h_ns);
       apart = largest_angle(coarse, fine);
       coarse = std::move(fine);
       if (apart <= goal_rad) {

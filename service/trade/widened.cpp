@@ -152,6 +152,41 @@ RigidBody<Wide> widened_body(const scene::Spacecraft& craft) {
   return RigidBody<Wide>(craft.inertia_body_kg_m2.cast<Wide>());
 }
 
+multibody::LinkedFlight<Wide> widened_flight(const scene::Spacecraft& craft) {
+  const scene::LinkedBodies& from = *craft.linked;
+  const auto turn = [](const Quat<double>& q) { return Quat<Wide>{q.w, q.x, q.y, q.z}; };
+  const auto frame = [&](const multibody::JointFrame<double>& f) {
+    return multibody::JointFrame<Wide>{widened(f.point_B), turn(f.q_BF)};
+  };
+  std::vector<multibody::BodySpec<Wide>> bodies;
+  for (const multibody::BodySpec<double>& b : from.bodies) {
+    bodies.push_back({b.name, b.mass_kg, b.inertia_B.cast<Wide>(), widened(b.x_I), turn(b.q_IB),
+                      widened(b.v_I), widened(b.omega_B)});
+  }
+  std::vector<multibody::Joint<Wide>> joints;
+  for (const multibody::Joint<double>& j : from.joints) {
+    multibody::Joint<Wide> joint{j.name, j.kind, j.body_a, j.body_b, frame(j.a), frame(j.b), {}};
+    for (std::size_t k = 0; k < j.laws.size(); ++k) {
+      const multibody::CoordinateLaw<double>& law = j.laws[k];
+      joint.laws[k] = {law.stiffness, law.rest,  law.damping,        law.stops,
+                       law.lower,     law.upper, law.stop_stiffness, law.stop_dissipation};
+    }
+    joints.push_back(std::move(joint));
+  }
+  multibody::LinkedFlight<Wide> flight(
+      multibody::Assembly<Wide>(bodies, std::move(joints), {from.formulation, {}}));
+  for (const multibody::CoordinateMotor<double>& motor : from.motors) {
+    flight.motors.push_back({motor.joint, motor.coordinate, motor.standing, {}});
+  }
+  flight.first_torque = craft.first_torque;
+  for (const Torque<double>& torque : craft.torques) {
+    if (std::holds_alternative<GravityGradient<double>>(torque)) {
+      flight.tide = widened(*craft.orbit);
+    }
+  }
+  return flight;
+}
+
 State<Wide> in_closed_form(const scene::Spacecraft& craft, std::int64_t t_ns) {
   State<Wide> state = widened_start(craft);
   FreeExact::step(BodyOf<FreeExact, Wide>(widened_body(craft)), state, seconds<Wide>(t_ns),

@@ -37,6 +37,11 @@ void check_spacecraft(const scene::Spacecraft& craft) {
       require(actuator.index < craft.wheels.size(), "an actuator is no wheel");
       continue;
     }
+    if (actuator.kind == scene::ActuatorKind::joint) {
+      require(craft.linked != nullptr && actuator.index < craft.linked->motors.size(),
+              "an actuator is no motor");
+      continue;
+    }
     require(actuator.index < craft.torques.size(), "an actuator is no model");
     const Torque<double>& torque = craft.torques[actuator.index];
     const bool right = actuator.kind == scene::ActuatorKind::torque

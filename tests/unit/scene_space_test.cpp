@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_text.hpp"
+#include "service/scene/time_scales.hpp"
 
 namespace adstar::scene {
 namespace {
