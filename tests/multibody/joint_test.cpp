@@ -85,7 +85,7 @@ TEST(AFrame, about_an_axis_has_its_z_there_and_is_the_same_seen_from_another_bod
     JointMotion<double> m;
     multibody::evaluate(joint, a, b, m);
     for (const double gap : m.gap) {
-      EXPECT_NEAR(gap, 0, 2e-15);
+      EXPECT_NEAR(gap, 0, 1e-14);
     }
   }
   EXPECT_THROW(multibody::frame_about(V{}, V{}), std::invalid_argument);
