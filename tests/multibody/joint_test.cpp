@@ -53,6 +53,44 @@ TEST(EachJoint, is_placed_at_its_coordinates_and_rates) {
   }
 }
 
+TEST(EachJoint, is_placed_as_well_when_the_base_is_its_body_b) {
+  for (const JointKind kind : kKinds) {
+    auto m = pair_on(kind);
+    std::swap(m.joints[0].body_a, m.joints[0].body_b);
+    m.place();
+    Flight<double> flight(m);
+    const auto start = flight.rates(0);
+    const double q[] = {0.4, -0.3, 0.2}, rate[] = {0.7, 0.5, -0.6};
+    for (int k = 0; k < multibody::shape_of(kind).coordinates; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      EXPECT_NEAR(flight.coordinate(0, i), q[i], 1e-14) << multibody::kind_name(kind);
+      EXPECT_NEAR(start[i], rate[i], 1e-14) << multibody::kind_name(kind);
+    }
+  }
+}
+
+TEST(AFrame, about_an_axis_has_its_z_there_and_is_the_same_seen_from_another_body) {
+  test::Generator random(9);
+  for (int i = 0; i < 50; ++i) {
+    const V axis = i < 3 ? V{i == 0 ? 1.0 : 0, i == 1 ? -1.0 : 0, i == 2 ? 1.0 : 0}
+                         : test::unit_vector(random);
+    const auto frame = multibody::frame_about(V{0.1, 0.2, 0.3}, 7.0 * axis);
+    EXPECT_LT(norm(rotate(frame.q_BF, V{0, 0, 1}) - axis), 1e-15);
+    const multibody::BodyMotion<double> a{{1, 2, 3}, test::unit_quaternion(random), {}, {}};
+    const multibody::BodyMotion<double> b{{3, 1, 2}, test::unit_quaternion(random), {}, {}};
+    Joint<double> joint;
+    joint.kind = JointKind::fixed;
+    joint.a = frame;
+    joint.b = multibody::seen_from(b, a, frame);
+    JointMotion<double> m;
+    multibody::evaluate(joint, a, b, m);
+    for (const double gap : m.gap) {
+      EXPECT_NEAR(gap, 0, 1e-14);
+    }
+  }
+  EXPECT_THROW(multibody::frame_about(V{}, V{}), std::invalid_argument);
+}
+
 TEST(EachJoint, holds_what_it_holds_and_moves_along_the_rest) {
   for (const JointKind kind : kKinds) {
     for (const Formulation formulation : {Formulation::se3, Formulation::direct_product}) {

@@ -203,6 +203,7 @@ class Assembly {
                                            MassBlock<T>{{J, J, J, T(0), T(0), T(0)}, T(1)});
     const std::span<const T> border = system.border(masses);
     std::vector<T> mobility;
+    mobility.reserve(all.size());
     for (const RowPlace& row : all) {
       mobility.push_back(system.mobility(row, masses));
     }

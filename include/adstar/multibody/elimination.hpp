@@ -15,6 +15,8 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "adstar/multibody/dense.hpp"
@@ -182,19 +184,7 @@ class Elimination {
       const JacobianBlock<T>& child = link.child_is_b ? C.b : C.a;
       const JacobianBlock<T>& parent = link.child_is_b ? C.a : C.b;
       T* const M = link.parent == kGround ? nullptr : block(link.parent).L;
-      switch (rows_[at(link.joint)]) {
-        case 3:
-          eliminate<3>(own, child, parent, M);
-          break;
-        case 4:
-          eliminate<4>(own, child, parent, M);
-          break;
-        case 5:
-          eliminate<5>(own, child, parent, M);
-          break;
-        default:
-          eliminate<6>(own, child, parent, M);
-      }
+      with_rows(rows_[at(link.joint)], [&](auto N) { eliminate<N()>(own, child, parent, M); });
     }
   }
 
@@ -240,6 +230,21 @@ class Elimination {
     }
   }
 
+  /// action(constant N) with N the rows of the joint.
+  template <class Action>
+  static void with_rows(int rows, const Action& action) {
+    switch (rows) {
+      case 3:
+        return action(std::integral_constant<int, 3>{});
+      case 4:
+        return action(std::integral_constant<int, 4>{});
+      case 5:
+        return action(std::integral_constant<int, 5>{});
+      default:
+        return action(std::integral_constant<int, 6>{});
+    }
+  }
+
   /// `gamma` null: zero. `lambda` null: not wanted.
   void solve_tree(std::span<Spatial<T>> f, const std::array<T, 6>* gamma,
                   std::array<T, 6>* lambda) {
@@ -250,49 +255,56 @@ class Elimination {
         own.y[k] = f[at(link.body)][k];
       }
       solve_lower(own.L, 6, 6, own.y);
-      if (link.joint < 0) {
-        continue;
-      }
-      const int n = rows_[at(link.joint)];
-      for (int i = 0; i < n; ++i) {
-        const T right = gamma == nullptr ? T(0) : gamma[at(link.joint)][at(i)];
-        own.g[i] = right - product(own.Y + 6 * i, own.y);
-      }
-      solve_lower(own.LS, n, 6, own.g);
-      if (link.parent != kGround) {
-        Spatial<T>& up = f[at(link.parent)];
-        for (int i = 0; i < n; ++i) {
-          for (int k = 0; k < 6; ++k) {
-            up[at(k)] = up[at(k)] + own.Z[6 * i + k] * own.g[i];
-          }
-        }
+      if (link.joint >= 0) {
+        const T* const right = gamma == nullptr ? nullptr : gamma[at(link.joint)].data();
+        T* const up = link.parent == kGround ? nullptr : f[at(link.parent)].data();
+        with_rows(rows_[at(link.joint)], [&](auto N) { gather<N()>(own, right, up); });
       }
     }
     for (const TreeLink& link : links_) {
       Block& own = block(link.body);
-      Spatial<T>& a = f[at(link.body)];
       if (link.joint >= 0) {
-        const int n = rows_[at(link.joint)];
-        T load[6];
-        for (int i = 0; i < n; ++i) {
-          load[i] = own.g[i];
-          if (link.parent != kGround) {
-            load[i] = load[i] - product(own.Z + 6 * i, f[at(link.parent)].data());
+        const T* const above = link.parent == kGround ? nullptr : f[at(link.parent)].data();
+        with_rows(rows_[at(link.joint)], [&](auto N) {
+          T load[6];
+          spread<N()>(own, above, load);
+          for (std::size_t i = 0; lambda != nullptr && i < N(); ++i) {
+            lambda[at(link.joint)][i] = load[i];
           }
-        }
-        solve_upper(own.LS, n, 6, load);
-        for (int i = 0; i < n; ++i) {
-          for (int k = 0; k < 6; ++k) {
-            own.y[k] = own.y[k] + own.Y[6 * i + k] * load[i];
-          }
-          if (lambda != nullptr) {
-            lambda[at(link.joint)][at(i)] = load[i];
-          }
-        }
+        });
       }
       solve_upper(own.L, 6, 6, own.y);
+      for (std::size_t k = 0; k < 6; ++k) {
+        f[at(link.body)][k] = own.y[k];
+      }
+    }
+  }
+
+  /// g := LS⁻¹ (gamma - Y y), and Zᵀ g to the parent's force `up` (null: the ground).
+  template <int N>
+  static void gather(Block& own, const T* gamma, T* up) {
+    for (int i = 0; i < N; ++i) {
+      const T right = gamma == nullptr ? T(0) : gamma[i];
+      own.g[i] = right - product(own.Y + 6 * i, own.y);
+    }
+    solve_lower(own.LS, N, 6, own.g);
+    for (int i = 0; up != nullptr && i < N; ++i) {
       for (int k = 0; k < 6; ++k) {
-        a[at(k)] = own.y[k];
+        up[k] = up[k] + own.Z[6 * i + k] * own.g[i];
+      }
+    }
+  }
+
+  /// λ = LS⁻ᵀ (g - Z a_p), and y += Yᵀ λ.
+  template <int N>
+  static void spread(Block& own, const T* above, T* load) {
+    for (int i = 0; i < N; ++i) {
+      load[i] = above == nullptr ? own.g[i] : own.g[i] - product(own.Z + 6 * i, above);
+    }
+    solve_upper(own.LS, N, 6, load);
+    for (int i = 0; i < N; ++i) {
+      for (int k = 0; k < 6; ++k) {
+        own.y[k] = own.y[k] + own.Y[6 * i + k] * load[i];
       }
     }
   }

@@ -111,6 +111,41 @@ void place(std::vector<BodySpec<T>>& bodies, const std::vector<Joint<T>>& joints
   }
 }
 
+/// A joint frame with its z along `axis_B` (of any length but zero): revolute and prismatic joints move there. Its x
+/// is square to it, nearest to the body axis that leans on it least.
+template <class T>
+JointFrame<T> frame_about(const Vec3<T>& point_B, const Vec3<T>& axis_B) {
+  using std::abs;
+  const T length = norm(axis_B);
+  if (!(length > T(0)) || !(length - length == T(0))) {
+    detail::refuse("the axis of a joint has no direction; give three numbers, not all zero");
+  }
+  const Vec3<T> z = (T(1) / length) * axis_B;
+  const bool x_least = abs(z.x) <= abs(z.y) && abs(z.x) <= abs(z.z);
+  const bool y_least = !x_least && abs(z.y) <= abs(z.z);
+  const Vec3<T> e = x_least   ? Vec3<T>{T(1), T(0), T(0)}
+                    : y_least ? Vec3<T>{T(0), T(1), T(0)}
+                              : Vec3<T>{T(0), T(0), T(1)};
+  const Vec3<T> across = e - dot(e, z) * z;
+  const Vec3<T> x = (T(1) / norm(across)) * across;
+  Eigen::Matrix<T, 3, 3> R;
+  R.col(0) = to_eigen(x);
+  R.col(1) = to_eigen(cross(z, x));
+  R.col(2) = to_eigen(z);
+  return {point_B, normalised(from_eigen(Eigen::Quaternion<T>(R)))};
+}
+
+/// A frame of one body, or the ground's, as another has it where both are: with it as b's frame every coordinate of
+/// the joint is zero at the start.
+template <class T>
+JointFrame<T> seen_from(const BodyMotion<T>& other, const BodyMotion<T>& body,
+                        const JointFrame<T>& frame) {
+  const Vec3<T> point_I = body.x_I + rotate(body.q_IB, frame.point_B);
+  const Quat<T> q = other.q_IB;
+  return {rotate_inverse(q, point_I - other.x_I),
+          normalised(Quat<T>{q.w, -q.x, -q.y, -q.z} * (body.q_IB * frame.q_BF))};
+}
+
 /// Moves the origin to the common centre of mass, at rest there.
 template <class T>
 void centre(std::vector<BodySpec<T>>& bodies) {

@@ -29,7 +29,9 @@ enum class Residual { gap, rate };
 template <class T>
 T ask_for(Residual which, const Assembly<T>& assembly, Workspace<T>& work) {
   using std::abs;
+  using std::max;
   T worst{};
+  bool finite = true;
   for (std::size_t j = 0; j < work.joints.size(); ++j) {
     const Joint<T>& joint = assembly.joints()[j];
     const JointMotion<T>& m = work.joints[j];
@@ -44,10 +46,11 @@ T ask_for(Residual which, const Assembly<T>& assembly, Workspace<T>& work) {
       const T value = gap ? m.gap[i] : m.rate[i];
       work.gamma[j][i] = -value;
       const T share = abs(value) / (k < m.shape.translations ? along : about);
-      worst = share <= worst || worst != worst ? worst : share;  // keeps NaN
+      worst = max(worst, share);
+      finite = finite && share - share == T(0);
     }
   }
-  return worst;
+  return finite ? worst : std::numeric_limits<T>::quiet_NaN();
 }
 
 template <class T>

@@ -57,8 +57,9 @@ Topology find_topology(std::size_t bodies, const std::vector<Joint<T>>& joints) 
     reached[0] = true;
     topology.links.push_back({0, kGround, -1, true});
   }
-  for (std::size_t next = 0; next < topology.links.size(); ++next) {
-    const int body = topology.links[next].body;
+  std::size_t next = 0;
+  while (next < topology.links.size()) {  // which grows
+    const int body = topology.links[next++].body;
     reach_from(body, touching[static_cast<std::size_t>(body)]);
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
