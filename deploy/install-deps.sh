@@ -15,7 +15,7 @@ packages=(
 )
 if [[ "${1:-}" == "--tests" ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
-             iproute2 git procps bash-completion)
+             iproute2 git procps bash-completion valgrind)
 elif [[ -n "${1:-}" ]]; then
   echo "usage: install-deps.sh [--tests]" >&2
   exit 2

@@ -12,40 +12,22 @@ using multibody::JointKind;
 
 constexpr std::string_view kPoint = "[0.5, 0.0, 0.0]";
 
-/// Unit, from x, y, z of any length.
+/// Of any length but zero.
 std::optional<Vec3<double>> read_direction(const Value& value, std::string_view example) {
   const auto given = read_vector(value, example);
-  if (!given) {
-    return std::nullopt;
-  }
-  const double largest = std::max({std::fabs(given->x), std::fabs(given->y), std::fabs(given->z)});
-  if (largest == 0) {
+  if (given && *given == Vec3<double>{}) {
     value.refuse("a direction, not all zeros", example);
     return std::nullopt;
   }
-  const Vec3<double> a = (1 / largest) * *given;
-  return (1 / norm(a)) * a;
+  return given;
 }
 
-/// The shortest turn that takes `from` to `to`, both unit.
-Quat<double> turn_between(const Vec3<double>& from, const Vec3<double>& to) {
-  const double cosine = dot(from, to);
-  if (cosine < -0.999999) {
-    const Vec3<double> off =
-        std::fabs(from.x) < 0.9 ? Vec3<double>{1, 0, 0} : Vec3<double>{0, 1, 0};
-    const Vec3<double> axis = cross(from, off);
-    const double length = norm(axis);
-    return {0, axis.x / length, axis.y / length, axis.z / length};
-  }
-  const Vec3<double> v = cross(from, to);
-  return normalised(Quat<double>{1 + cosine, v.x, v.y, v.z});
-}
-
-/// The joint's axes in the body on its near side: z along `axis`, by the shortest turn from the body's z; of a universal
-/// joint x along it. The far side has the same, so that both bodies are parallel at zero.
+/// The joint's axes in the body on its near side: z along `axis`, of a universal joint x. The far side has the same, so
+/// that both bodies are parallel at zero.
 Quat<double> axes_along(JointKind kind, const Vec3<double>& axis) {
-  return turn_between(kind == JointKind::universal ? Vec3<double>{1, 0, 0} : Vec3<double>{0, 0, 1},
-                      axis);
+  const Quat<double> q_BF = multibody::frame_about<double>({}, axis).q_BF;
+  constexpr double kHalf = 0.70710678118654752;  // √½: a quarter turn about y takes x to z
+  return kind == JointKind::universal ? normalised(q_BF * Quat<double>{kHalf, 0, -kHalf, 0}) : q_BF;
 }
 
 std::optional<JointKind> read_kind(Keys& keys) {
