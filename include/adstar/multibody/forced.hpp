@@ -27,7 +27,7 @@ namespace adstar::multibody {
 
 /// Whether linked bodies are stepped by a scheme of that name: the coadjoint family in double.
 template <class Scheme>
-concept LinksBodies = std::is_same_v<Scheme, Coadjoint<typename Scheme::Nodes>>;
+concept LinksBodies = std::is_base_of_v<Coadjoint<typename Scheme::Nodes>, Scheme>;
 
 inline bool links_bodies(std::string_view scheme) {
   bool links = false;
