@@ -4,7 +4,7 @@
 //   positions:  M δ = Cᵀ ν, C δ = -Φ;  x += δx, R := exp(δθ) R       (Newton, the least δ in the metric M)
 //   velocities: M δ = Cᵀ μ, C δ = -C v;  each joint's impulse Cᵀ μ on b, its opposite on a
 // One factorisation serves both: the corrections are the size of a step's error, and what a Jacobian from beside
-// leaves is of second order and taken by the next round. (H, p) of se3 and p of the direct product do not see the first,
+// leaves is of second order and taken by the next round; where a round hardly helps, the joints are factored anew. (H, p) of se3 and p of the direct product do not see the first,
 // and the second cancels in pairs, so both totals stay. Rounds end when they no longer gain.
 
 #include <algorithm>
@@ -16,7 +16,9 @@
 
 namespace adstar::multibody {
 
-inline constexpr int kMostRounds = 4;
+inline constexpr int kMostRounds = 6;
+/// A residual above this that a round hardly lessens is not round-off: the Jacobian is taken anew.
+inline constexpr double kRoundOff = 1e-12;
 /// A gap of this many roundings is none. With 16 what is left open is of one sign for long: four times the error of a
 /// pendulum at round-off.
 inline constexpr double kClosedUlps = 4;
@@ -99,13 +101,19 @@ void push_apart(const Assembly<T>& assembly, std::size_t joint, const JointMotio
 
 /// Rounds of one kind, beginning and ending with the workspace at the state; returns the residual that is left.
 template <class T>
-T close(Residual which, const Assembly<T>& assembly, AssemblyState<T>& state, Workspace<T>& work) {
+T close(Residual which, const Assembly<T>& assembly, AssemblyState<T>& state, Workspace<T>& work,
+        int& lost) {
   T before = std::numeric_limits<T>::max();
   for (int round = 0;; ++round) {
     const T worst = ask_for(which, assembly, work);
     const bool done = worst <= T(kClosedUlps) * std::numeric_limits<T>::epsilon();
-    if (done || round == kMostRounds || !(worst <= T(0.5) * before)) {
+    const bool slow = round > 0 && !(worst <= T(0.01) * before);
+    const bool from_beside = slow && worst > T(kRoundOff);
+    if (done || round == kMostRounds || !(from_beside || worst <= T(0.5) * before)) {
       return worst;
+    }
+    if (from_beside) {
+      lost = std::max(lost, factor(assembly, work));
     }
     before = worst;
     solve_for_impulses(work);
@@ -139,8 +147,8 @@ ProjectionReport<T> project(const Assembly<T>& assembly, Workspace<T>& work,
   detail::read_state(assembly, state, work);
   detail::evaluate_joints(assembly, work);
   report.lost = detail::factor(assembly, work);
-  report.gap = detail::close(detail::Residual::gap, assembly, state, work);
-  report.rate = detail::close(detail::Residual::rate, assembly, state, work);
+  report.gap = detail::close(detail::Residual::gap, assembly, state, work, report.lost);
+  report.rate = detail::close(detail::Residual::rate, assembly, state, work, report.lost);
   return report;
 }
 

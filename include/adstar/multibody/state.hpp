@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
+#include "adstar/double_double.hpp"
 #include "adstar/multibody/assembly.hpp"
 #include "adstar/state.hpp"
 
@@ -33,11 +35,38 @@ struct AssemblyState {
   friend bool operator==(const AssemblyState&, const AssemblyState&) = default;
 };
 
+namespace detail {
+
+/// H - (y p_z - z p_y): what is left where x×p is large beside it. In double with the products' own rounding and what
+/// the sums carry, so that it is H that sets the digits of Pi_I, not x×p.
+template <class T>
+T less_moment(const Sum<T>& H, const Sum<T>& y, const Sum<T>& p_z, const Sum<T>& z,
+              const Sum<T>& p_y) {
+  if constexpr (std::is_same_v<T, double>) {
+    const DoubleDouble first = adstar::detail::two_product(y.value, p_z.value);
+    const DoubleDouble second = adstar::detail::two_product(z.value, p_y.value);
+    const DoubleDouble less = adstar::detail::two_sum(H.value, -first.hi);
+    const DoubleDouble more = adstar::detail::two_sum(less.hi, second.hi);
+    const double carried =
+        (z.value * p_y.carry + z.carry * p_y.value) - (y.value * p_z.carry + y.carry * p_z.value);
+    return more.hi + (((less.lo + more.lo) + (second.lo - first.lo)) + (H.carry + carried));
+  } else {
+    return H.value - (y.value * p_z.value - z.value * p_y.value);
+  }
+}
+
+}  // namespace detail
+
 /// The body's own angular momentum in I [N m s].
 template <class T>
-Vec3<T> spin_of(Formulation formulation, const Vec3<T>& x_I, const Vec3<T>& p_I,
-                const Vec3<T>& H_I) {
-  return formulation == Formulation::se3 ? H_I - cross(x_I, p_I) : H_I;
+Vec3<T> spin_of(Formulation formulation, const BodyState<T>& body) {
+  const auto& [x, q, p, H] = body;
+  if (formulation == Formulation::direct_product) {
+    return H.value();
+  }
+  return {detail::less_moment(H.x, x.y, p.z, x.z, p.y),
+          detail::less_moment(H.y, x.z, p.x, x.x, p.z),
+          detail::less_moment(H.z, x.x, p.y, x.y, p.x)};
 }
 
 template <class T>
@@ -51,9 +80,8 @@ template <class T>
 BodyMotion<T> motion_of(const Assembly<T>& assembly, const AssemblyState<T>& state,
                         std::size_t body) {
   const BodyState<T>& own = state.bodies[body];
-  const Vec3<T> x = own.x_I.value(), p = own.p_I.value();
-  return motion_of(assembly.bodies()[body], x, own.q_IB, p,
-                   spin_of(assembly.options().formulation, x, p, own.H_I.value()));
+  return motion_of(assembly.bodies()[body], own.x_I.value(), own.q_IB, own.p_I.value(),
+                   spin_of(assembly.options().formulation, own));
 }
 
 /// omega_B [rad/s]

@@ -120,9 +120,9 @@ template <class T>
 void read_state(const Assembly<T>& assembly, const AssemblyState<T>& state, Workspace<T>& work) {
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
     const BodyState<T>& own = state.bodies[i];
-    const Vec3<T> x = own.x_I.value(), p = own.p_I.value();
-    work.spins[i] = spin_of(assembly.options().formulation, x, p, own.H_I.value());
-    work.motions[i] = motion_of(assembly.bodies()[i], x, own.q_IB, p, work.spins[i]);
+    work.spins[i] = spin_of(assembly.options().formulation, own);
+    work.motions[i] =
+        motion_of(assembly.bodies()[i], own.x_I.value(), own.q_IB, own.p_I.value(), work.spins[i]);
   }
 }
 
