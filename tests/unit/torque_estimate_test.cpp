@@ -1,0 +1,89 @@
+// What a torque of the surroundings is worth for a spacecraft, and what adstar check says of it.
+
+#include "service/report/torque_estimate.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "scene_text.hpp"
+#include "service/report/cost_report.hpp"
+
+namespace adstar::report {
+namespace {
+
+using scene::in_spacecraft;
+
+const std::string kOrbit = "[spacecraft.orbit]\nsemi_major_axis_m = 7e6\n";
+const std::string kGravity = "[[spacecraft.torque]]\nmodel = \"gravity_gradient\"\n";
+
+const TorqueEstimate& of(const std::vector<TorqueEstimate>& all, std::string_view model) {
+  return *std::find_if(all.begin(), all.end(),
+                       [&](const TorqueEstimate& each) { return each.model == model; });
+}
+
+scene::Scene read(const std::string& spacecraft, const std::string& simulation = "") {
+  return scene::parse(scene::kSimulation + simulation + scene::kSpacecraft + spacecraft,
+                      "scene.toml");
+}
+
+TEST(TorqueEstimate, is_none_without_an_orbit) {
+  const scene::Scene scene = read("");
+  for (const TorqueEstimate& each : estimates_of(scene.spacecraft[0], 100)) {
+    EXPECT_FALSE(each.torque_n_m) << each.model;
+    EXPECT_FALSE(each.modelled);
+  }
+}
+
+TEST(TorqueEstimate, of_gravity_is_its_largest_torque_and_turns_by_half_its_acceleration) {
+  const scene::Scene scene = read(kOrbit);
+  const auto all = estimates_of(scene.spacecraft[0], 10);
+  const TorqueEstimate& gravity = of(all, "gravity_gradient");
+  const double expected = 1.5 * 3.986004418e14 / 343e18 * (1.66 - 0.9144);
+  EXPECT_NEAR(*gravity.torque_n_m / expected, 1, 1e-12);
+  EXPECT_NEAR(gravity.turn_rad / (0.5 * expected / 0.9144 * 100), 1, 1e-12);
+  EXPECT_FALSE(gravity.modelled);
+  // And the one that is modelled says the same.
+  const scene::Scene modelled = read(kOrbit + kGravity);
+  const auto again = estimates_of(modelled.spacecraft[0], 10);
+  EXPECT_TRUE(of(again, "gravity_gradient").modelled);
+  EXPECT_NEAR(*of(again, "gravity_gradient").torque_n_m / expected, 1, 1e-12);
+}
+
+/// A body of 1 kg m² is a cube of 0.46 m and 29 kg: some 1e-6 N m of magnetism and of sunlight's order below.
+TEST(TorqueEstimate, of_what_is_left_out_has_the_right_order) {
+  const scene::Scene scene = read(kOrbit);
+  const auto all = estimates_of(scene.spacecraft[0], 100);
+  const double magnetic = *of(all, "residual_dipole").torque_n_m;
+  EXPECT_GT(magnetic, 1e-6);
+  EXPECT_LT(magnetic, 1e-5);
+  const double light = *of(all, "solar_pressure").torque_n_m;
+  EXPECT_GT(light, 1e-8);
+  EXPECT_LT(light, 1e-6);
+  const double air = *of(all, "aerodynamic").torque_n_m;  // 622 km
+  EXPECT_GT(air, 1e-9);
+  EXPECT_LT(air, 1e-6);
+}
+
+TEST(CostReport, warns_of_what_is_not_worth_it_and_of_what_is_missing) {
+  const std::string coarse =
+      cost_report(read(kOrbit + kGravity, "duration = \"10s\"\naccuracy_rad = 0.01\n"));
+  EXPECT_NE(coarse.find("WARNING, below the 1e-02 rad asked for; leave it out"), std::string::npos)
+      << coarse;
+  EXPECT_EQ(coarse.find("name it"), std::string::npos) << coarse;
+  const std::string fine = cost_report(read(kOrbit, "duration = \"1h\"\naccuracy_rad = 1e-6\n"));
+  EXPECT_NE(fine.find("WARNING, above the 1e-06 rad asked for; name it"), std::string::npos);
+  EXPECT_EQ(fine.find("leave it out"), std::string::npos) << fine;
+  EXPECT_NE(cost_report(read("", "accuracy_rad = 1e-6\n")).find("not estimable without an orbit"),
+            std::string::npos);
+}
+
+TEST(CostReport, measures_each_model_beside_the_rigid_body) {
+  const std::string text = cost_report(read(kOrbit + kGravity));
+  EXPECT_NE(text.find("rigid body"), std::string::npos);
+  EXPECT_NE(text.find("gravity_gradient"), std::string::npos);
+  EXPECT_NE(text.find(" ns\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace adstar::report
