@@ -20,13 +20,16 @@
 //   h |omega| ≤ angle,   h √λ ≤ 1,   h c ≤ decay_limit,   λ, c ≤ 2 max over bodies of Σ k (1/mass seen by k)
 // (K ≤ 2 × its blocks on the diagonal; joints only make masses heavier: sound for unprojected motion). No bound on
 // the rates *within* the step is sharp for linked bodies, so the step is watched instead: when a part
-// turned a body further than the limit, or a stage past π, or the projection did not close the joints,
-// the step is taken again in twice the parts, up to the limit of parts. Past it the report says so.
+// turned a body further than the limit, or a stage twice as far, or the projection did not close the joints, or the
+// step's E - E_0 - W is more than a share of the energy at play, the step is taken again in twice the parts, up to
+// the limit of parts. Past it the report says so. The balance is what sees a light body among heavy ones: an error δx of a
+// stage turns it at δx×p/J_min.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "adstar/integrators/coadjoint.hpp"
@@ -42,23 +45,26 @@ namespace adstar::multibody {
 /// What a step has to say. Unresolved: the result is not to be trusted to the scheme's order.
 template <class T>
 struct AssemblyReport {
-  std::int64_t parts = 0;             ///< steps of the scheme, of the attempt that counts
-  bool unresolved_angle = false;      ///< a body turns too far for the limit of parts
-  bool unresolved_gap = false;        ///< joints, or their rates, stayed open
+  std::int64_t parts = 0;          ///< steps of the scheme, of the attempt that counts
+  bool unresolved_angle = false;   ///< a body turns too far for the limit of parts
+  bool unresolved_gap = false;     ///< joints, or their rates, stayed open
+  bool unresolved_energy = false;  ///< energy and work do not balance: errors grow in a light body
   bool unresolved_stiffness = false;  ///< springs or dampers too stiff for the limit of parts
   bool at_dead_point = false;  ///< a loop's rows depend on one another here: loads not unique
   bool lost = false;           ///< no finite result: the state is as it was before the step
   T gap{}, gap_rate{};         ///< left after projection, by size and speed of the joint
 
   bool resolved() const {
-    return !unresolved_angle && !unresolved_gap && !unresolved_stiffness && !at_dead_point && !lost;
+    return !unresolved_angle && !unresolved_gap && !unresolved_energy && !unresolved_stiffness &&
+           !at_dead_point && !lost;
   }
 };
 
 struct AssemblyLimits {
   double substep_angle_rad = 0;  ///< of a body in a part of a step; 0: that of the coadjoint scheme
   std::int64_t substeps = 64;
-  double gap = 1e-10;  ///< what a projection may leave, by size of the joint
+  double gap = 1e-10;    ///< what a projection may leave, by size of the joint
+  double energy = 1e-4;  ///< |E - E_0 - W| of a step, by the energy at play; 0: not looked at
   bool project = true;
 };
 
@@ -297,6 +303,17 @@ bool finite(const AssemblyState<T>& state) {
   return true;
 }
 
+/// |E - E_0 - W| against a share of what is in motion or in springs, or went into height or work; and round-off of
+/// height itself.
+template <class T>
+bool balances(const Energy<T>& E_0, const Energy<T>& E, const T& W, const T& share) {
+  using std::abs;
+  const T stored = (E_0.kinetic + E.kinetic) + (E_0.springs + E.springs);
+  const T scale = stored + (abs(E.gravity - E_0.gravity) + abs(W));
+  const T round_off = T(1000) * std::numeric_limits<T>::epsilon() * (stored + abs(E.gravity));
+  return abs((E.total() - E_0.total()) - W) <= share * scale + round_off;
+}
+
 }  // namespace detail
 
 /// Advances `state` by h_ns [ns]. `motors`: by joint and free coordinate, constant over the step [N m] or [N], or
@@ -330,6 +347,7 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
   std::int64_t parts =
       wanted <= most ? static_cast<std::int64_t>(wanted) : limits.substeps;  // also NaN
   work.before = state;
+  const Energy<T> E_0 = energy_of(assembly, work.motions, state.coordinates);
   for (;; parts = std::min(2 * parts, limits.substeps)) {
     const T h = length / T(parts);
     report.parts = parts;
@@ -356,7 +374,12 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
     report.unresolved_angle = turned_too_far;
     report.unresolved_gap = open;
     report.at_dead_point = lost > 0;
-    if ((!turned_too_far && !open && !report.lost) || parts == limits.substeps) {
+    report.unresolved_energy =
+        limits.energy > 0 &&
+        !detail::balances(E_0, energy_of(assembly, work.motions, state.coordinates),
+                          state.work.value - work.before.work.value, T(limits.energy));
+    if ((!turned_too_far && !open && !report.unresolved_energy && !report.lost) ||
+        parts == limits.substeps) {
       break;
     }
     state = work.before;
