@@ -45,18 +45,19 @@ namespace adstar::multibody {
 /// What a step has to say. Unresolved: the result is not to be trusted to the scheme's order.
 template <class T>
 struct AssemblyReport {
-  std::int64_t parts = 0;          ///< steps of the scheme, of the attempt that counts
-  bool unresolved_angle = false;   ///< a body turns too far for the limit of parts
-  bool unresolved_gap = false;     ///< joints, or their rates, stayed open
-  bool unresolved_energy = false;  ///< energy and work do not balance: errors grow in a light body
+  std::int64_t parts = 0;             ///< steps of the scheme, of the attempt that counts
+  bool unresolved_angle = false;      ///< a body turns too far for the limit of parts
+  bool unresolved_gap = false;        ///< joints, or their rates, stayed open
   bool unresolved_stiffness = false;  ///< springs or dampers too stiff for the limit of parts
+  bool out_of_balance =
+      false;  ///< what unresolved_angle speaks of where it is not the turn: energy and work
+              ///< do not balance, errors grow in a light body
   bool at_dead_point = false;  ///< a loop's rows depend on one another here: loads not unique
   bool lost = false;           ///< no finite result: the state is as it was before the step
   T gap{}, gap_rate{};         ///< left after projection, by size and speed of the joint
 
   bool resolved() const {
-    return !unresolved_angle && !unresolved_gap && !unresolved_energy && !unresolved_stiffness &&
-           !at_dead_point && !lost;
+    return !unresolved_angle && !unresolved_gap && !unresolved_stiffness && !at_dead_point && !lost;
   }
 };
 
@@ -303,15 +304,29 @@ bool finite(const AssemblyState<T>& state) {
   return true;
 }
 
-/// |E - E_0 - W| against a share of what is in motion or in springs, or went into height or work; and round-off of
-/// height itself.
+/// |E - E_0 - W| against a share of what is in motion or in springs, or went into height or work; round-off of height
+/// itself; and `least`.
 template <class T>
-bool balances(const Energy<T>& E_0, const Energy<T>& E, const T& W, const T& share) {
+bool balances(const Energy<T>& E_0, const Energy<T>& E, const T& W, const T& share,
+              const T& least) {
   using std::abs;
   const T stored = (E_0.kinetic + E.kinetic) + (E_0.springs + E.springs);
   const T scale = stored + (abs(E.gravity - E_0.gravity) + abs(W));
   const T round_off = T(1000) * std::numeric_limits<T>::epsilon() * (stored + abs(E.gravity));
-  return abs((E.total() - E_0.total()) - W) <= share * scale + round_off;
+  return abs((E.total() - E_0.total()) - W) <= share * scale + (round_off + least);
+}
+
+/// The energy of turning about the origin by 1e-12 rad a step: what has come to rest is round-off below it.
+template <class T>
+T energy_at_rest(const Assembly<T>& assembly, const std::vector<BodyMotion<T>>& motions,
+                 const T& h) {
+  T inertia{};
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const Body<T>& body = assembly.bodies()[i];
+    inertia = inertia + (body.mass * squared_norm(motions[i].x_I) + body.rigid.moments()[2]);
+  }
+  const T rate = T(1e-12) / h;
+  return T(0.5) * (inertia * (rate * rate));
 }
 
 }  // namespace detail
@@ -348,6 +363,7 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
       wanted <= most ? static_cast<std::int64_t>(wanted) : limits.substeps;  // also NaN
   work.before = state;
   const Energy<T> E_0 = energy_of(assembly, work.motions, state.coordinates);
+  const T least = detail::energy_at_rest(assembly, work.motions, length);
   for (;; parts = std::min(2 * parts, limits.substeps)) {
     const T h = length / T(parts);
     report.parts = parts;
@@ -371,15 +387,16 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
       detail::count_on(assembly, work, state);
     }
     report.lost = !detail::finite(state);
-    report.unresolved_angle = turned_too_far;
     report.unresolved_gap = open;
     report.at_dead_point = lost > 0;
-    report.unresolved_energy =
+    const T W =
+        (state.work.value - work.before.work.value) + (state.work.carry - work.before.work.carry);
+    report.out_of_balance =
         limits.energy > 0 &&
-        !detail::balances(E_0, energy_of(assembly, work.motions, state.coordinates),
-                          state.work.value - work.before.work.value, T(limits.energy));
-    if ((!turned_too_far && !open && !report.unresolved_energy && !report.lost) ||
-        parts == limits.substeps) {
+        !detail::balances(E_0, energy_of(assembly, work.motions, state.coordinates), W,
+                          T(limits.energy), least);
+    report.unresolved_angle = turned_too_far || report.out_of_balance;
+    if ((!report.unresolved_angle && !open && !report.lost) || parts == limits.substeps) {
       break;
     }
     state = work.before;
