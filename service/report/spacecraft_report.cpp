@@ -98,32 +98,55 @@ std::string details(const Table<double>& model) {
                      model.after_end == AfterEnd::hold ? "the last value" : "zero");
 }
 
+/// What Spacecraft::torques[i] is, its actuator's name first where it has one.
+std::string torque_text(const scene::Spacecraft& craft, std::size_t i) {
+  const auto actuator =
+      std::find_if(craft.actuators.begin(), craft.actuators.end(), [&](const scene::Actuator& a) {
+        return a.kind != scene::ActuatorKind::wheel && a.kind != scene::ActuatorKind::joint &&
+               a.index == i;
+      });
+  return std::visit(
+      [&](const auto& model) -> std::string {
+        if constexpr (std::is_same_v<std::decay_t<decltype(model)>, Commanded<double>>) {
+          return fmt::format("actuator '{}', at most {} N m", actuator->name,
+                             vector_text(actuator->limit));
+        } else if (actuator != craft.actuators.end()) {
+          return fmt::format("actuator '{}', {}", actuator->name, details(model));
+        } else {
+          return details(model);
+        }
+      },
+      craft.torques[i]);
+}
+
+/// Of linked bodies: on which one it acts, and whether to tell of it: gravity acts on each, and is told of once.
+std::string acts_on(const scene::Spacecraft& craft, std::size_t i, bool& tell) {
+  const auto next = std::upper_bound(craft.first_torque.begin(), craft.first_torque.end(), i);
+  const auto body = static_cast<std::size_t>(next - craft.first_torque.begin()) - 1;
+  if (std::holds_alternative<GravityGradient<double>>(craft.torques[i])) {
+    tell = body == 0;
+    return ", of the hub, and on each body its own";
+  }
+  return fmt::format(", on '{}'", craft.linked->bodies[body].name);
+}
+
 std::string torque_lines(const scene::Spacecraft& craft) {
   std::string text;
   for (std::size_t i = 0; i < craft.torques.size(); ++i) {
-    text += std::visit(
-        [&](const auto& model) {
-          using Model = std::decay_t<decltype(model)>;
-          std::string what;
-          const auto actuator = std::find_if(
-              craft.actuators.begin(), craft.actuators.end(), [&](const scene::Actuator& a) {
-                return a.kind != scene::ActuatorKind::wheel &&
-                       a.kind != scene::ActuatorKind::joint && a.index == i;
-              });
-          if constexpr (std::is_same_v<Model, Commanded<double>>) {
-            what = fmt::format("actuator '{}', at most {} N m", actuator->name,
-                               vector_text(actuator->limit));
-          } else if (actuator != craft.actuators.end()) {
-            what = fmt::format("actuator '{}', {}", actuator->name, details(model));
-          } else {
-            what = details(model);
-          }
-          return fmt::format("    torque    {} ({} frame): {}\n", Model::kName,
-                             frame_name(model.frame), what);
-        },
-        craft.torques[i]);
+    bool tell = true;
+    const std::string on = craft.linked ? acts_on(craft, i, tell) : "";
+    if (tell) {
+      text += std::visit(
+          [&](const auto& model) {
+            return fmt::format("    torque    {} ({} frame): {}{}\n", model.kName,
+                               frame_name(model.frame), torque_text(craft, i), on);
+          },
+          craft.torques[i]);
+    }
   }
-  return text.empty() ? "    torque    none: free rotation\n" : text;
+  const char* const none = craft.linked ? "    torque    none but those of the joints\n"
+                                        : "    torque    none: free rotation\n";
+  return text.empty() ? none : text;
 }
 
 std::string motor_text(const SpinningWheel<double>& spinning, bool commanded) {

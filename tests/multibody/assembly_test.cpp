@@ -143,6 +143,33 @@ TEST(AStep, takes_a_stiff_spring_in_parts_or_says_so) {
   EXPECT_TRUE(stiffer.worst.unresolved_stiffness);
 }
 
+TEST(AStep, of_what_has_come_to_rest_is_not_split) {
+  auto m = test::four_bodies();
+  for (auto& joint : m.joints) {
+    for (auto& law : joint.laws) {
+      law = {5, 0.1, 2, false, 0, 0, 0, 0};
+    }
+  }
+  for (auto& start : m.starts) {
+    start.rate = {};
+  }
+  m.bodies[0].omega_B = {};
+  m.bodies[0].v_I = {};
+  m.place();
+  multibody::centre(m.bodies);
+  for (const auto formulation :
+       {multibody::Formulation::se3, multibody::Formulation::direct_product}) {
+    Flight<double> flight(m, {formulation, {}});
+    flight.run<Rk4>(4'000, 10'000'000);
+    EXPECT_TRUE(flight.worst.resolved());
+    EXPECT_LT(multibody::energy(flight.assembly, flight.state).kinetic, 1e-20);
+    flight.worst = {};
+    flight.run<Rk4>(100, 10'000'000);
+    EXPECT_TRUE(flight.worst.resolved());
+    EXPECT_LT(flight.worst.parts, 8);
+  }
+}
+
 TEST(AStep, with_no_finite_load_leaves_the_state_as_it_was) {
   Flight<double> flight(test::four_bodies());
   const auto before = flight.state;

@@ -82,6 +82,7 @@ struct Flight {
       worst.gap_rate = std::max(worst.gap_rate, report.gap_rate);
       worst.unresolved_angle = worst.unresolved_angle || report.unresolved_angle;
       worst.unresolved_gap = worst.unresolved_gap || report.unresolved_gap;
+      worst.out_of_balance = worst.out_of_balance || report.out_of_balance;
       worst.unresolved_stiffness = worst.unresolved_stiffness || report.unresolved_stiffness;
       worst.at_dead_point = worst.at_dead_point || report.at_dead_point;
       worst.lost = worst.lost || report.lost;

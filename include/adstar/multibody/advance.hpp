@@ -20,13 +20,16 @@
 //   h |omega| ≤ angle,   h √λ ≤ 1,   h c ≤ decay_limit,   λ, c ≤ 2 max over bodies of Σ k (1/mass seen by k)
 // (K ≤ 2 × its blocks on the diagonal; joints only make masses heavier: sound for unprojected motion). No bound on
 // the rates *within* the step is sharp for linked bodies, so the step is watched instead: when a part
-// turned a body further than the limit, or a stage past π, or the projection did not close the joints,
-// the step is taken again in twice the parts, up to the limit of parts. Past it the report says so.
+// turned a body further than the limit, or a stage twice as far, or the projection did not close the joints, or the
+// step's E - E_0 - W is more than a share of the energy at play, the step is taken again in twice the parts, up to
+// the limit of parts. Past it the report says so. The balance is what sees a light body among heavy ones: an error δx of a
+// stage turns it at δx×p/J_min.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "adstar/integrators/coadjoint.hpp"
@@ -46,6 +49,9 @@ struct AssemblyReport {
   bool unresolved_angle = false;      ///< a body turns too far for the limit of parts
   bool unresolved_gap = false;        ///< joints, or their rates, stayed open
   bool unresolved_stiffness = false;  ///< springs or dampers too stiff for the limit of parts
+  bool out_of_balance =
+      false;  ///< what unresolved_angle speaks of where it is not the turn: energy and work
+              ///< do not balance, errors grow in a light body
   bool at_dead_point = false;  ///< a loop's rows depend on one another here: loads not unique
   bool lost = false;           ///< no finite result: the state is as it was before the step
   T gap{}, gap_rate{};         ///< left after projection, by size and speed of the joint
@@ -58,7 +64,8 @@ struct AssemblyReport {
 struct AssemblyLimits {
   double substep_angle_rad = 0;  ///< of a body in a part of a step; 0: that of the coadjoint scheme
   std::int64_t substeps = 64;
-  double gap = 1e-10;  ///< what a projection may leave, by size of the joint
+  double gap = 1e-10;    ///< what a projection may leave, by size of the joint
+  double energy = 1e-4;  ///< |E - E_0 - W| of a step, by the energy at play; 0: not looked at
   bool project = true;
 };
 
@@ -299,6 +306,31 @@ bool finite(const AssemblyState<T>& state) {
   return true;
 }
 
+/// |E - E_0 - W| against a share of what is in motion or in springs, or went into height or work; round-off of height
+/// itself; and `least`.
+template <class T>
+bool balances(const Energy<T>& E_0, const Energy<T>& E, const T& W, const T& share,
+              const T& least) {
+  using std::abs;
+  const T stored = (E_0.kinetic + E.kinetic) + (E_0.springs + E.springs);
+  const T scale = stored + (abs(E.gravity - E_0.gravity) + abs(W));
+  const T round_off = T(1000) * std::numeric_limits<T>::epsilon() * (stored + abs(E.gravity));
+  return abs((E.total() - E_0.total()) - W) <= share * scale + (round_off + least);
+}
+
+/// The energy of turning about the origin by 1e-12 rad a step: what has come to rest is round-off below it.
+template <class T>
+T energy_at_rest(const Assembly<T>& assembly, const std::vector<BodyMotion<T>>& motions,
+                 const T& h) {
+  T inertia{};
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const Body<T>& body = assembly.bodies()[i];
+    inertia = inertia + (body.mass * squared_norm(motions[i].x_I) + body.rigid.moments()[2]);
+  }
+  const T rate = T(1e-12) / h;
+  return T(0.5) * (inertia * (rate * rate));
+}
+
 }  // namespace detail
 
 /// Advances `state` by h_ns [ns]. `motors`: by joint and free coordinate, constant over the step [N m] or [N], or
@@ -332,6 +364,8 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
   std::int64_t parts =
       wanted <= most ? static_cast<std::int64_t>(wanted) : limits.substeps;  // also NaN
   work.before = state;
+  const Energy<T> E_0 = energy_of(assembly, work.motions, state.coordinates);
+  const T least = detail::energy_at_rest(assembly, work.motions, length);
   for (;; parts = std::min(2 * parts, limits.substeps)) {
     const T h = length / T(parts);
     report.parts = parts;
@@ -355,10 +389,16 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
       detail::count_on(assembly, work, state);
     }
     report.lost = !detail::finite(state);
-    report.unresolved_angle = turned_too_far;
     report.unresolved_gap = open;
     report.at_dead_point = lost > 0;
-    if ((!turned_too_far && !open && !report.lost) || parts == limits.substeps) {
+    const T W =
+        (state.work.value - work.before.work.value) + (state.work.carry - work.before.work.carry);
+    report.out_of_balance =
+        limits.energy > 0 &&
+        !detail::balances(E_0, energy_of(assembly, work.motions, state.coordinates), W,
+                          T(limits.energy), least);
+    report.unresolved_angle = turned_too_far || report.out_of_balance;
+    if ((!report.unresolved_angle && !open && !report.lost) || parts == limits.substeps) {
       break;
     }
     state = work.before;

@@ -154,6 +154,7 @@ AssemblyReport<T> advance(LinkedFlight<T>& flight, std::span<const Torque<T>> to
     all.unresolved_gap = all.unresolved_gap || part.unresolved_gap;
     all.unresolved_stiffness = all.unresolved_stiffness || part.unresolved_stiffness;
     all.at_dead_point = all.at_dead_point || part.at_dead_point;
+    all.out_of_balance = all.out_of_balance || part.out_of_balance;
     all.lost = all.lost || part.lost;
     all.gap = std::max(all.gap, part.gap);
     all.gap_rate = std::max(all.gap_rate, part.gap_rate);

@@ -4,8 +4,9 @@
 //   positions:  M δ = Cᵀ ν, C δ = -Φ;  x += δx, R := exp(δθ) R       (Newton, the least δ in the metric M)
 //   velocities: M δ = Cᵀ μ, C δ = -C v;  each joint's impulse Cᵀ μ on b, its opposite on a
 // One factorisation serves both: the corrections are the size of a step's error, and what a Jacobian from beside
-// leaves is of second order and taken by the next round; where a round hardly helps, the joints are factored anew. (H, p) of se3 and p of the direct product do not see the first,
-// and the second cancels in pairs, so both totals stay. Rounds end when they no longer gain.
+// leaves is of second order and taken by the next round; where a round hardly helps, the joints are factored anew.
+// (H, p) of se3 and p of the direct product do not see the first, and the second cancels in pairs, so both totals
+// stay. Rounds end when they no longer gain.
 
 #include <algorithm>
 #include <cstddef>

@@ -182,11 +182,12 @@ struct Energy {
 };
 
 template <class T>
-Energy<T> energy(const Assembly<T>& assembly, const AssemblyState<T>& state) {
+Energy<T> energy_of(const Assembly<T>& assembly, const std::vector<BodyMotion<T>>& motions,
+                    const std::vector<std::array<T, 3>>& coordinates) {
   Energy<T> energy;
-  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
     const Body<T>& body = assembly.bodies()[i];
-    const BodyMotion<T> motion = motion_of(assembly, state, i);
+    const BodyMotion<T>& motion = motions[i];
     const Vec3<T> omega_B = rotate_inverse(motion.q_IB, motion.omega_I);
     energy.kinetic = energy.kinetic + T(0.5) * (body.mass * squared_norm(motion.v_I) +
                                                 dot(omega_B, body.rigid.momentum(omega_B)));
@@ -196,10 +197,19 @@ Energy<T> energy(const Assembly<T>& assembly, const AssemblyState<T>& state) {
     const Joint<T>& joint = assembly.joints()[j];
     for (int k = 0; k < shape_of(joint.kind).coordinates; ++k) {
       const auto c = static_cast<std::size_t>(k);
-      energy.springs = energy.springs + potential(joint.laws[c], state.coordinates[j][c]);
+      energy.springs = energy.springs + potential(joint.laws[c], coordinates[j][c]);
     }
   }
   return energy;
+}
+
+template <class T>
+Energy<T> energy(const Assembly<T>& assembly, const AssemblyState<T>& state) {
+  std::vector<BodyMotion<T>> motions;
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    motions.push_back(motion_of(assembly, state, i));
+  }
+  return energy_of(assembly, motions, state.coordinates);
 }
 
 }  // namespace adstar::multibody
