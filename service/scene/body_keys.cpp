@@ -137,6 +137,11 @@ class LinkedReader {
                       in_quotes(name + "2"));
       return -1;
     }
+    if (plan_.linked.bodies.size() > static_cast<std::size_t>(kMostBodies)) {
+      where.refuse_as("more than 1000 bodies", "at most 1000 bodies beside the hub",
+                      "fewer of them");
+      return -1;
+    }
     BodySpec<double> body;
     body.name = name;
     body.mass_kg = mass;

@@ -172,6 +172,11 @@ Plan read_plan(Keys& keys, TorqueContext context) {
   context.has_orbit = static_cast<bool>(orbit);
   plan.linked = read_linked(keys);
   context.linked = plan.linked.get();
+  constexpr std::int64_t kMostLinked = 100'000;
+  if (plan.linked &&
+      plan.count * static_cast<std::int64_t>(plan.linked->linked.bodies.size()) > kMostLinked) {
+    count.refuse("at most 100,000 linked bodies in a fleet", "fewer spacecraft");
+  }
   if (plan.linked && (plan.motion == Motion::Pi_B || plan.motion == Motion::H_I)) {
     plan.motion_value.refuse_as("a momentum of a spacecraft of several bodies",
                                 "the angular velocity of its hub",
