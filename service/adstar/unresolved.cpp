@@ -46,7 +46,8 @@ std::string Unresolved::warning(const scene::Scene& scene, std::int64_t step_ns)
     for (const std::uint32_t each : flags_) {
       flags |= each;
     }
-    return (flags & runtime::kFlagSeparatrix) != 0
+    return (flags & runtime::kFlagJointOpen) != 0 ? "follow with its joints closed"
+           : (flags & runtime::kFlagSeparatrix) != 0
                ? "follow beside the separatrix, where errors grow"
            : (flags & runtime::kFlagLightAxis) != 0 ? "follow while an axis is so light"
                                                     : "reach";
