@@ -7,8 +7,9 @@
 namespace adstar::scene {
 
 std::optional<Earth> read_earth(Keys& root, const Simulation& simulation) {
-  const bool named = static_cast<bool>(root.optional("earth"));
-  Keys keys = root.section("earth", "[earth] on a line of its own");
+  const Value named = root.optional("earth");
+  Keys keys =
+      named ? Keys(named, "[earth] on a line of its own") : Keys("earth", root.complaints());
   const Value ut1 = keys.optional("ut1_minus_utc_s");
   const double ut1_minus_utc =
       read_number(ut1, NumberRange{-1.0, 1.0}, {"seconds from -1 to 1, see IERS Bulletin A", "0.0"})

@@ -19,6 +19,7 @@ std::string space_scene(const dds::ParticipantOptions& where) {
 step = "10ms"
 pace = "clock"
 rate = 4
+substep_limit = 8
 epoch_utc = 2026-01-01T00:00:00Z
 [[spacecraft]]
 name = "sat1"
@@ -57,6 +58,8 @@ axis_body = [1.0, 0.0, 0.0]
 damping = 0.05
 max_motor_torque = 0.5
 commanded = true
+[budget]
+admission = "warn"
 [run]
 checkpoint_every = "2s"
 history = "whole"
