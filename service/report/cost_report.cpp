@@ -104,9 +104,6 @@ std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& si
 }
 
 std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>& accuracy) {
-  if (!estimate.torque_n_m) {
-    return "not estimable without an orbit";
-  }
   std::string text = fmt::format("{} {:.0e} N m, turns it by {} {:.0e} rad",
                                  estimate.modelled ? "at most" : "about", *estimate.torque_n_m,
                                  estimate.modelled ? "at most" : "about", estimate.turn_rad);
@@ -134,6 +131,10 @@ std::string cost_report(const scene::Scene& scene) {
     text += fmt::format("  '{}'\n", craft.name) + costs_of(craft, simulation);
     const double horizon = horizon_of(simulation, craft);
     worth += fmt::format("  '{}', over {} s\n", craft.name, short_number(horizon));
+    if (!craft.orbit) {
+      worth += "    not estimable without an orbit\n";
+      continue;
+    }
     for (const TorqueEstimate& estimate : estimates_of(craft, horizon)) {
       worth += fmt::format("    {:<17} {:<12} {}\n", estimate.model,
                            estimate.modelled ? "modelled" : "left out",
