@@ -42,9 +42,14 @@ class SchemeStepper final : public Stepper {
 
   std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
                    const StepLimits& limits) noexcept override {
+    const StepLimits own = limits_for<Scheme>(limits);
+    const double h_s = seconds<double>(h_ns);
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      unresolved += step_vehicle<Scheme>(bodies_[i], vehicles[i], t_ns, h_ns, limits) ? 0 : 1;
+      const bool resolved = vehicles[i].torques.empty()
+                                ? step_free_vehicle<Scheme>(bodies_[i], vehicles[i], h_s, own)
+                                : step_vehicle<Scheme>(bodies_[i], vehicles[i], t_ns, h_ns, limits);
+      unresolved += resolved ? 0 : 1;
     }
     return unresolved;
   }

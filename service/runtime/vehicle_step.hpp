@@ -7,9 +7,9 @@
 namespace adstar::runtime {
 
 /// Sets the flags; returns whether the step was resolved.
-inline bool note(Vehicle& vehicle, const StepReport& report) noexcept {
+[[gnu::always_inline]] inline bool note(Vehicle& vehicle, const StepReport& report) noexcept {
   vehicle.flags = 0;
-  if (report.resolved()) {
+  if (report.resolved()) [[likely]] {
     return true;
   }
   vehicle.flags = (report.unresolved_angle ? kFlagUnresolvedAngle : 0U) |
@@ -27,6 +27,15 @@ bool step_vehicle(const BodyOf<Scheme, double>& body, Vehicle& vehicle, std::int
                   std::int64_t h_ns, const StepLimits& limits) noexcept {
   return note(vehicle,
               advance<Scheme, double>(body, vehicle.state, vehicle.torques, t_ns, h_ns, limits));
+}
+
+/// The same of one that names no torque; what is alike for all such is worked out before: h, and limits_for<Scheme>().
+template <class Scheme>
+[[gnu::always_inline]] inline bool step_free_vehicle(const BodyOf<Scheme, double>& body,
+                                                     Vehicle& vehicle, double h_s,
+                                                     const StepLimits& limits) noexcept {
+  return note(vehicle,
+              adstar::detail::advance_free<Scheme, double>(body, vehicle.state, h_s, limits));
 }
 
 }  // namespace adstar::runtime

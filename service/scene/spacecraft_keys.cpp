@@ -132,23 +132,24 @@ Plan read_plan(Keys& keys, TorqueContext context) {
   for (const TorquePlan& torque : plan.torques) {
     drawn = drawn || torque.drawn;
   }
-  std::vector<std::string> actuators;
+  std::vector<std::string> actuators, motors;
   if (plan.linked) {
     for (const Actuator& motor : plan.linked->actuators) {
-      actuators.push_back(motor.name);
+      motors.push_back(motor.name);
     }
   }
   for (const TorquePlan& torque : plan.torques) {
     if (!torque.actuator) {
       continue;
     }
-    if (std::find(actuators.begin(), actuators.end(), torque.actuator->name) != actuators.end()) {
+    if (std::find(motors.begin(), motors.end(), torque.actuator->name) != motors.end()) {
       plan.linked->where.refuse_as(
           "a motor called " + in_quotes(torque.actuator->name) + " beside an actuator of that name",
           "a name of its own for each", "another name for one of them");
     }
     actuators.push_back(torque.actuator->name);
   }
+  actuators.insert(actuators.end(), motors.begin(), motors.end());
   plan.wheels_value = keys.optional("wheel");
   plan.wheels = read_wheels(plan.wheels_value, std::move(actuators));
   if (plan.linked && plan.wheels_value) {

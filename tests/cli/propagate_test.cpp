@@ -116,7 +116,7 @@ TEST(Propagate, says_once_that_commanded_actuators_rest) {
   EXPECT_EQ(
       outcome.err,
       "adstar propagate: nobody commands 'body' of 'sat0' and 5 more here; to command it, run "
-      "adstard, and `adstar torque` or `adstar wheel`\n");
+      "adstard, and `adstar torque`, `wheel`, `dipole`, `fire` or `joint`\n");
 }
 
 TEST(Propagate, warns_of_spacecraft_that_no_sub_step_could_follow) {

@@ -144,11 +144,13 @@ TEST(SceneLoader, refuses_torques_that_are_none) {
   EXPECT_EQ(refusal(in_torque("model = \"harmnic\"")),
             "scene.toml:7:9: " + at +
                 "model: got \"harmnic\", expected one of constant, harmonic, "
-                "table, commanded, damping, gravity_gradient; try \"harmonic\"");
+                "table, commanded, damping, gravity_gradient, residual_dipole, magnetorquer, "
+                "aerodynamic, solar_pressure, thruster; try \"harmonic\"");
   EXPECT_EQ(refusal(in_torque("frame = \"body\"")),
             "scene.toml:6:1: " + at +
                 "model: got nothing, expected one of constant, harmonic, table, "
-                "commanded, damping, gravity_gradient; try model = \"constant\"");
+                "commanded, damping, gravity_gradient, residual_dipole, magnetorquer, aerodynamic, "
+                "solar_pressure, thruster; try model = \"constant\"");
   EXPECT_EQ(refusal(in_torque("model = \"constant\"\ntorque_n_m = [1, 2]")),
             "scene.toml:6:1: " + at +
                 "frame: got nothing, expected one of body, inertial; try frame "
