@@ -25,7 +25,9 @@ using V = Vec3<double>;
 constexpr double kRadius = 7e6;
 constexpr int kCells = 20;
 
-double value(int i) { return -0.95 + 0.1 * i; }
+// Off the diagonal k_1 = k_3 and off zero, where the motion is on the edge.
+double value_of_k_1(int i) { return -0.95 + 0.1 * i; }
+double value_of_k_3(int i) { return -0.92 + 0.1 * i; }
 
 enum Region { kUnstable, kLagrange, kDeBraDelp };
 
@@ -65,20 +67,19 @@ bool stays(double k_1, double k_3) {
 int main(int argc, char** argv) {
   plot::Grid grid;
   grid.title = "Gravity gradient: which shapes keep their place in the orbital frame";
-  grid.x_label = "k_1 = (J_pitch - J_yaw)/J_roll";
+  grid.x_label = "k_1 = (J_pitch - J_yaw)/J_roll; upwards k_3 = (J_pitch - J_roll)/J_yaw";
   grid.kinds = {{"unstable, as known", "#d9d9d9", "#000"},
                 {"stays: Lagrange's region", "#0072b2", "#fff"},
                 {"stays: region of DeBra and Delp", "#009e73", "#fff"},
                 {"otherwise than the linear motion says", "#d55e00", "#fff"}};
   int otherwise = 0, stable = 0;
   for (int i = 0; i < kCells; ++i) {
-    grid.columns.push_back(fmt::format("{:.2f}", value(i)));
-    grid.rows.push_back(fmt::format("{}k_3 = {:.2f}", i == 0 ? "(J_pitch - J_roll)/J_yaw, " : "",
-                                    value(kCells - 1 - i)));
+    grid.columns.push_back(fmt::format("{:.2f}", value_of_k_1(i)));
+    grid.rows.push_back(fmt::format("k_3 = {:.2f}", value_of_k_3(kCells - 1 - i)));
   }
   for (int row = 0; row < kCells; ++row) {
     for (int column = 0; column < kCells; ++column) {
-      const double k_1 = value(column), k_3 = value(kCells - 1 - row);
+      const double k_1 = value_of_k_1(column), k_3 = value_of_k_3(kCells - 1 - row);
       const Region region = known(k_1, k_3);
       const bool stayed = stays(k_1, k_3);
       const bool as_known = stayed == (region != kUnstable);
