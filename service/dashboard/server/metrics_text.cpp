@@ -32,7 +32,7 @@ std::string number(double value) {
   return std::isinf(value) ? (value > 0 ? "+Inf" : "-Inf") : fmt::format("{}", value);
 }
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 /// One metric: its head on the first sample, so that a metric without samples is not named.
 class Metric {
