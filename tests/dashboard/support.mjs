@@ -31,7 +31,9 @@ export async function openBrowser() {
       ...(process.getuid() === 0 ? ["--no-sandbox"] : []),
       "--use-angle=swiftshader",
       "--enable-unsafe-swiftshader",
-      "--enable-precise-memory-info",
+      // Software all the way: emulated GPU rasterisation of what is no WebGL costs most.
+      "--disable-gpu-rasterization",
+      "--disable-accelerated-2d-canvas",
     ],
   });
 }
@@ -82,8 +84,8 @@ export async function stop(child, signal = "SIGINT") {
 }
 
 /// With `url` and `port`.
-export async function startDashboard(...words) {
-  const child = start("adstar", ["dashboard", "--partition", partition, "--port", "0", ...words]);
+export async function startDashboard({ port = 0, more = [] } = {}) {
+  const child = start("adstar", ["dashboard", "--partition", partition, "--port", String(port), ...more]);
   await until("the dashboard listens", () => /http:\/\/\S+/.test(child.text) || child.exitCode !== null);
   const found = /http:\/\/127\.0\.0\.1:(\d+)\//.exec(child.text);
   if (found === null) {

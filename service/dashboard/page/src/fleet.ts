@@ -31,6 +31,7 @@ const kHeads: { key: Key; head: string; class: string; text(columns: Columns, i:
 const kRow_px = 28;
 const kPoll_ms = 2000;
 const kMargin = 6;
+const kMostRows = 11;
 
 export class Fleet {
   private columns: Columns | undefined;
@@ -146,6 +147,7 @@ export class Fleet {
     say(this.count, `${this.order.length.toLocaleString("en")}${of} spacecraft${cut}`);
     mark(this.grid, "aria-rowcount", String(this.order.length));
     this.sheet.style.height = `${this.order.length * kRow_px}px`;
+    this.viewport.style.height = `${Math.min(kMostRows, Math.max(3, this.order.length)) * kRow_px}px`;
     this.draw();
   }
 

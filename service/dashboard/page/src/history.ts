@@ -47,6 +47,10 @@ export class History {
     }
   }
 
+  earliest(): number {
+    return this.size === 0 ? Infinity : this.at(this.columns.get("t")!, 0);
+  }
+
   latest(): number {
     return this.size === 0 ? -Infinity : this.at(this.columns.get("t")!, this.size - 1);
   }

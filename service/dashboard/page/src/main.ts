@@ -80,6 +80,11 @@ for (const [name, text] of [
   const swatch = make("span", { class: `swatch ${name}`, "aria-hidden": "true" });
   find("#scene-legend").append(make("li", {}, swatch, document.createTextNode(text)));
 }
+for (const axis of ["x", "y", "z"] as const) {
+  const line = make("span", { class: `line ${axis}`, "aria-hidden": "true" });
+  const words = { x: "x, solid", y: "y, dashed", z: "z, dotted" };
+  find("#plots-legend").append(make("li", {}, line, document.createTextNode(words[axis])));
+}
 window.setInterval(() => {
   if (!document.hidden) {
     plots.draw();

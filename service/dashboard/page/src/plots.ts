@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 
-import { make } from "./dom";
+import { make, say } from "./dom";
 import { fixed, small } from "./format";
 import type { ColumnName, History } from "./history";
 import { colour, kDash, onThemeChange } from "./theme";
@@ -42,7 +42,7 @@ const kPlots: Plot[] = [
   },
 ];
 
-const kHeight_px = 132;
+const kHeight_px = 128;
 const kBuckets = 300;
 
 export class Plots {
@@ -76,7 +76,8 @@ export class Plots {
       chart.batch(() => {
         chart.setData(data as uPlot.AlignedData, false);
         if (Number.isFinite(latest)) {
-          chart.setScale("x", { min: latest - this.window_s, max: latest });
+          const min = Math.max(latest - this.window_s, Math.min(this.history.earliest(), latest - 5));
+          chart.setScale("x", { min, max: latest });
         }
       });
     });
@@ -93,13 +94,15 @@ export class Plots {
     this.place.replaceChildren();
     this.charts = kPlots.map((plot) => {
       const holder = make("div", { class: "plot", role: "img", "aria-label": plot.title });
-      this.place.append(make("h3", { text: plot.title }), holder);
-      return new uPlot(this.options(plot), [[]], holder);
+      const under = make("span", { class: "quiet mono" });
+      this.place.append(make("div", { class: "row" }, make("h3", { text: plot.title }), under), holder);
+      return new uPlot(this.options(plot, under), [[]], holder);
     });
     this.draw();
   }
 
-  private options(plot: Plot): uPlot.Options {
+  /// What is under the pointer is said in `under`.
+  private options(plot: Plot, under: HTMLElement): uPlot.Options {
     const line = { stroke: colour("quiet"), grid: { stroke: colour("grid"), width: 1 }, ticks: { show: false } }; // prettier-ignore
     const show = plot.exponent ? small : (value: number) => fixed(value, 4);
     return {
@@ -107,8 +110,18 @@ export class Plots {
       height: kHeight_px,
       pxAlign: false,
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
-      legend: { live: true },
-      scales: { x: { time: false }, y: { range: plot.exponent ? undefined : roomy } },
+      legend: { show: false },
+      hooks: {
+        setCursor: [
+          (chart: uPlot) => {
+            const i = chart.cursor.idx;
+            const at = (s: number) => (i == null ? null : (chart.data[s]?.[i] ?? null));
+            const values = plot.series.map((series, s) => `${series.label} ${show(at(s + 1) ?? NaN)}`);
+            say(under, i == null || at(0) === null ? "" : `t ${at(0)!.toFixed(1)} s: ${values.join(", ")}`);
+          },
+        ],
+      },
+      scales: { x: { time: false }, y: { range: plot.exponent ? around : roomy } },
       axes: [
         { ...line, size: 22, font: "11px system-ui, sans-serif", gap: 2 },
         {
@@ -116,18 +129,18 @@ export class Plots {
           size: 62,
           font: "11px system-ui, sans-serif",
           gap: 4,
+          space: 26,
           values: plot.exponent ? (_, ticks) => ticks.map((tick) => small(tick)) : undefined,
         },
       ],
       series: [
-        { label: "t [s]", value: (_, value) => (value === null ? "–" : value.toFixed(1)) },
+        {},
         ...plot.series.map((series) => ({
           label: series.label,
           stroke: colour(series.colour),
           dash: series.dash,
           width: 1.5,
           points: { show: false },
-          value: (_: uPlot, value: number | null) => (value === null ? "–" : show(value)),
         })),
       ],
     } as uPlot.Options;
@@ -142,4 +155,13 @@ function roomy(_: uPlot, least: number | null, greatest: number | null): [number
   const middle = (least + greatest) / 2;
   const half = Math.max((greatest - least) * 0.6, Math.abs(middle) * 1e-3, 1e-12);
   return [middle - half, middle + half];
+}
+
+/// Residuals: as they are, around a constant one.
+function around(_: uPlot, least: number | null, greatest: number | null): [number, number] {
+  if (least === null || greatest === null) {
+    return [-1e-16, 1e-16];
+  }
+  const half = Math.max((greatest - least) * 0.6, Math.abs(greatest) * 0.2, 1e-18);
+  return [(least + greatest) / 2 - half, (least + greatest) / 2 + half];
 }

@@ -16,6 +16,7 @@ import {
   PerspectiveCamera,
   Quaternion,
   Scene as ThreeScene,
+  SRGBColorSpace,
   Sprite,
   SpriteMaterial,
   Vector3,
@@ -246,9 +247,9 @@ function sprite(text: string, paint: string): Sprite {
   context.textBaseline = "middle";
   context.fillStyle = paint;
   context.fillText(text, 64, 32);
-  const label = new Sprite(
-    new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, transparent: true }),
-  );
+  const map = new CanvasTexture(canvas);
+  map.colorSpace = SRGBColorSpace;
+  const label = new Sprite(new SpriteMaterial({ map, depthTest: false, transparent: true }));
   label.scale.set(0.72, 0.36, 1);
   label.renderOrder = 1;
   return label;

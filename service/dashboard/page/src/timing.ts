@@ -17,7 +17,8 @@ const kQuantiles = [
   ["max", "max_ns", "triangle"],
 ] as const;
 
-const kLeft = 108, kRight = 12, kRow = 30, kTop = 8, kWidth = 560; // prettier-ignore
+const kLeft = 108, kRight = 14, kRow = 30, kTop = 8; // prettier-ignore
+const kHeight = kTop + 4 * kRow + 22;
 const kLeast_ns = 100, kMost_ns = 1e9; // prettier-ignore
 
 const kSvg = "http://www.w3.org/2000/svg";
@@ -32,9 +33,10 @@ function svg(tag: string, attributes: Record<string, string | number>, text?: st
   return element;
 }
 
-function x(ns: number): number {
+/// Where a duration stands in a picture of that width.
+function place_of(ns: number, width: number): number {
   const part = Math.log10(Math.min(Math.max(ns, kLeast_ns), kMost_ns) / kLeast_ns) / Math.log10(kMost_ns / kLeast_ns);
-  return kLeft + part * (kWidth - kLeft - kRight);
+  return kLeft + part * (width - kLeft - kRight);
 }
 
 const kShapes = {
@@ -46,12 +48,14 @@ const kShapes = {
 
 export class TimingChart {
   private shownStep = -1;
+  private shown: Timing | undefined;
+  private width = 560;
   private readonly picture: SVGElement;
   private readonly body: HTMLElement;
   private readonly note = make("p", { class: "quiet" });
 
   constructor(place: HTMLElement) {
-    this.picture = svg("svg", { viewBox: `0 0 ${kWidth} ${kTop + kParts.length * kRow + 22}`, role: "img", "aria-label": "Quantiles of each part of the beat against its budget; the table has the numbers" });
+    this.picture = svg("svg", { height: kHeight, role: "img", "aria-label": "Quantiles of each part of the beat against its budget; the table has the numbers" });
     this.body = make("tbody");
     const heads = ["part of a beat [µs]", ...kQuantiles.map(([name]) => name), "budget", "over"];
     const table = make("table", { class: "numbers" },
@@ -66,6 +70,12 @@ export class TimingChart {
     icon.append(svg("path", { d: "M0,-6V6", class: "budget" }));
     legend.append(make("li", {}, icon, document.createTextNode(" budget")));
     place.append(this.picture, legend, make("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Timing in numbers" }, table), this.note); // prettier-ignore
+    new ResizeObserver(() => {
+      this.width = Math.max(260, Math.min(640, place.clientWidth));
+      if (this.shown !== undefined) {
+        this.draw(this.shown);
+      }
+    }).observe(place);
   }
 
   show(service: Service | undefined): void {
@@ -74,22 +84,29 @@ export class TimingChart {
       return;
     }
     this.shownStep = timing.step;
+    this.shown = timing;
     this.draw(timing);
     this.body.replaceChildren(...kParts.map(([name, key]) => row(name, timing[key])));
     const yes = (fact: boolean, what: string) => `${what} ${fact ? "yes" : "NO"}`;
     say(this.note,
-      `${counted(timing.late_beats)} beats late (${counted(timing.late_after_work)} after our own work, ` +
-      `${counted(timing.late_after_sleep)} after the sleep), ${counted(timing.missed_beats)} missed, ` +
-      `${counted(timing.caught_up_beats)} caught up, ${counted(timing.overruns)} longer than the period; ` +
+      `Beats late: ${counted(timing.late_beats)} (${counted(timing.late_after_work)} after our own work, ` +
+      `${counted(timing.late_after_sleep)} after the sleep); missed: ${counted(timing.missed_beats)}; ` +
+      `caught up: ${counted(timing.caught_up_beats)}; longer than the period: ${counted(timing.overruns)}; ` +
       `${(timing.behind_wall_ns / 1e6).toFixed(1)} ms behind the wall clock. In force: ` +
       [yes(timing.fifo_scheduling, "FIFO"), yes(timing.memory_locked, "memory lock"), yes(timing.cpu_pinned, "one processor")].join(", ") + "."); // prettier-ignore
   }
 
   private draw(timing: Timing): void {
     const bottom = kTop + kParts.length * kRow;
+    const x = (ns: number) => place_of(ns, this.width);
+    const narrow = this.width < 420;
+    this.picture.setAttribute("width", String(this.width));
     const parts: SVGElement[] = [];
     for (let ns = kLeast_ns; ns <= kMost_ns; ns *= 10) {
       parts.push(svg("path", { d: `M${x(ns)},${kTop}V${bottom}`, class: "grid" }));
+      if (narrow && Math.round(Math.log10(ns)) % 2 === 0) {
+        continue;
+      }
       const text = ns < 1e6 ? `${ns / 1e3}µs` : ns < 1e9 ? `${ns / 1e6}ms` : "1s";
       parts.push(svg("text", { x: x(ns), y: bottom + 16, "text-anchor": ns === kMost_ns ? "end" : "middle" }, text));
     }
