@@ -87,7 +87,7 @@ for (const axis of ["x", "y", "z"] as const) {
 }
 window.setInterval(() => {
   if (!document.hidden) {
-    plots.draw();
+    plots.drawIfDue();
   }
 }, kPlots_ms);
 const showStatus = () =>

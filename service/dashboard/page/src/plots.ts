@@ -42,12 +42,13 @@ const kPlots: Plot[] = [
   },
 ];
 
-const kHeight_px = 128;
+const kHeight_px = 146;
 const kBuckets = 300;
 
 export class Plots {
   private charts: uPlot[] = [];
   private window_s = 60;
+  private drawn_ms = -Infinity;
 
   constructor(
     private readonly place: HTMLElement,
@@ -67,7 +68,15 @@ export class Plots {
     this.draw();
   }
 
-  draw(): void {
+  /// No oftener than the picture moves by about a pixel.
+  drawIfDue(): void {
+    if (performance.now() - this.drawn_ms >= Math.min(2000, this.window_s)) {
+      this.draw();
+    }
+  }
+
+  private draw(): void {
+    this.drawn_ms = performance.now();
     const latest = this.history.latest();
     kPlots.forEach((plot, i) => {
       const names = plot.series.map((series) => series.column);
@@ -129,8 +138,8 @@ export class Plots {
           size: 62,
           font: "11px system-ui, sans-serif",
           gap: 4,
-          space: 26,
-          values: plot.exponent ? (_, ticks) => ticks.map((tick) => small(tick)) : undefined,
+          splits: (_chart: uPlot, _axis: number, least: number, greatest: number) => ticks(least, greatest),
+          values: (_chart: uPlot, at: number[]) => labels(at, plot.exponent === true),
         },
       ],
       series: [
@@ -164,4 +173,22 @@ function around(_: uPlot, least: number | null, greatest: number | null): [numbe
   }
   const half = Math.max((greatest - least) * 0.6, Math.abs(greatest) * 0.2, 1e-18);
   return [(least + greatest) / 2 - half, (least + greatest) / 2 + half];
+}
+
+/// Three or so round numbers, however small: uPlot's own stop at 1e-16.
+function ticks(least: number, greatest: number): number[] {
+  const rough = (greatest - least) / 3;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((digit) => digit * power).find((candidate) => candidate >= rough)!;
+  const result = [];
+  for (let k = Math.ceil(least / step); k * step <= greatest; ++k) {
+    result.push(k * step);
+  }
+  return result;
+}
+
+function labels(at: number[], exponent: boolean): string[] {
+  const step = at.length > 1 ? at[1]! - at[0]! : 1;
+  const digits = Math.max(0, Math.min(9, -Math.floor(Math.log10(step) + 1e-9)));
+  return at.map((tick) => (exponent ? small(Math.abs(tick) < step / 2 ? 0 : tick) : fixed(Math.abs(tick) < step / 2 ? 0 : tick, digits)));
 }
