@@ -44,7 +44,7 @@ export class Scene {
   private rate = new Group();
   private azimuth = 0.7;
   private elevation = 0.42;
-  private distance = 7.2;
+  private distance = 7.8;
 
   private readonly q_IB = new Quaternion(); // as heard
   private readonly shown = new Quaternion(); // as drawn
@@ -125,7 +125,7 @@ export class Scene {
       this.distance * Math.cos(this.elevation) * Math.sin(this.azimuth),
       this.distance * Math.sin(this.elevation),
     );
-    this.camera.lookAt(0, 0, 0);
+    this.camera.lookAt(0, 0, 0.25);
     this.renderer.render(this.scene, this.camera);
     ++this.drawn;
   }
