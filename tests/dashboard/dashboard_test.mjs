@@ -2,7 +2,8 @@
 // page was built; ADSTAR_SHOTS: where pictures go.
 
 import assert from "node:assert/strict";
-import { mkdirSync } from "node:fs";
+import { mkdirSync, readFileSync } from "node:fs";
+import { connect } from "node:net";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
 
@@ -110,6 +111,21 @@ describe("over a live daemon", () => {
     assert.doesNotMatch(answer.headers["content-security-policy"], /unsafe/);
     assert.equal(answer.headers["x-content-type-options"], "nosniff");
     assert.doesNotMatch(answer.text, /<script(?![^>]*src=)|<style| style=| on\w+=/);
+  });
+
+  test("readers that stand still cost no memory", async () => {
+    const resident_kb = () => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${dashboard.pid}/status`, "utf8"))[1]);
+    const before_kb = resident_kb();
+    const readers = Array.from({ length: 6 }, () => {
+      const socket = connect(dashboard.port, "127.0.0.1").on("error", () => {});
+      socket.pause();
+      socket.write(`GET /events HTTP/1.1\r\nHost: 127.0.0.1:${dashboard.port}\r\n\r\n`);
+      return socket;
+    });
+    await page.waitForTimeout(6000);
+    assert.equal((await ask(dashboard.port, "/metrics")).status, 200);
+    assert.ok(resident_kb() - before_kb < 10_000, `${before_kb} to ${resident_kb()} kB`);
+    readers.forEach((socket) => socket.destroy());
   });
 
   test("metrics count steps", async () => {
