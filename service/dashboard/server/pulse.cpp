@@ -33,7 +33,7 @@ std::string name_at(const Json& json, const char* key) {
   if (found == json.end() || !found->is_string()) {
     wrong(fmt::format("{}: expected a name in quotes", key));
   }
-  const auto name = found->get<std::string>();
+  auto name = found->get<std::string>();
   if (name.empty() || name.size() > kLongestName) {
     wrong(fmt::format("{}: got {} bytes, expected 1 to {}", key, name.size(), kLongestName));
   }
