@@ -2,6 +2,7 @@
 // page was built; ADSTAR_SHOTS: where pictures go.
 
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync } from "node:fs";
 import { connect } from "node:net";
 import { join } from "node:path";
@@ -132,6 +133,15 @@ describe("over a live daemon", () => {
     const steps = async () => Number(/^adstar_steps_total\{service="fly"\} (\d+)$/m.exec((await ask(dashboard.port, "/metrics")).text)[1]);
     const first = await steps();
     await until("more steps", async () => (await steps()) > first);
+  });
+
+  test("promtool has nothing against the metrics", async (context) => {
+    const { error, status, stderr } = spawnSync("promtool", ["check", "metrics"], { input: (await ask(dashboard.port, "/metrics")).text, encoding: "utf8" });
+    if (error !== undefined) {
+      context.skip("promtool (Debian: prometheus) is not installed");
+      return;
+    }
+    assert.equal(status, 0, stderr);
   });
 
   test("survives the daemon's restart", async () => {
