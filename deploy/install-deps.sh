@@ -12,10 +12,13 @@ packages=(
   libspdlog-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libxxhash-dev
   liberfa-dev                              # dates, and how the Earth stands
   libxsimd-dev                             # fleets: several bodies a register
+  libcpp-httplib-dev pkg-config            # adstar dashboard serves its page
 )
+# The page itself: whatever npm is there will do, Debian's or another.
+command -v npm >/dev/null || packages+=(nodejs npm)
 if [[ "${1:-}" == "--tests" ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
-             iproute2 git procps bash-completion valgrind)
+             iproute2 git procps bash-completion valgrind chromium)
 elif [[ -n "${1:-}" ]]; then
   echo "usage: install-deps.sh [--tests]" >&2
   exit 2

@@ -67,13 +67,13 @@ int main(int argc, char** argv) {
   program.footer("Example:\n  adstar propagate configs/scenes/paper_free.toml --every 10s");
 
   const std::vector<cli::Verb> verbs{
-      cli::add_propagate(program),   cli::add_check(program),     cli::add_trade(program),
-      cli::add_reproduce(program),   cli::add_torque(program),    cli::add_wheel(program),
-      cli::add_dipole(program),      cli::add_fire(program),      cli::add_joint(program),
-      cli::add_monitor(program),     cli::add_list(program),      cli::add_timing(program),
-      cli::add_replay(program),      cli::add_step(program),      cli::add_pause(program),
-      cli::add_resume(program),      cli::add_reset(program),     cli::add_set_state(program),
-      cli::add_set_inertia(program), cli::add_completion(program)};
+      cli::add_propagate(program), cli::add_check(program),       cli::add_trade(program),
+      cli::add_reproduce(program), cli::add_torque(program),      cli::add_wheel(program),
+      cli::add_dipole(program),    cli::add_fire(program),        cli::add_joint(program),
+      cli::add_monitor(program),   cli::add_list(program),        cli::add_timing(program),
+      cli::add_dashboard(program), cli::add_replay(program),      cli::add_step(program),
+      cli::add_pause(program),     cli::add_resume(program),      cli::add_reset(program),
+      cli::add_set_state(program), cli::add_set_inertia(program), cli::add_completion(program)};
   try {
     program.parse(arguments(argc, argv));
   } catch (const CLI::ParseError& error) {

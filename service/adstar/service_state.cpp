@@ -22,6 +22,24 @@ const char* state_text(adstar_ServiceState state) {
   return "in a state that this program does not know";
 }
 
+const char* state_word(adstar_ServiceState state) {
+  switch (state) {
+    case adstar_SERVICE_RUNNING:
+      return "running";
+    case adstar_SERVICE_STOPPED:
+      return "stopped";
+    case adstar_SERVICE_HALTED:
+      return "halted";
+    case adstar_SERVICE_WAITING:
+      return "waiting";
+    case adstar_SERVICE_PAUSED:
+      return "paused";
+    case adstar_SERVICE_STANDBY:
+      return "standby";
+  }
+  return "unknown";
+}
+
 std::string standing_clocks(const Services& services) {
   std::string text;
   for (const ListedService* service : services.all()) {

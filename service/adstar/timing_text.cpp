@@ -44,25 +44,6 @@ nlohmann::ordered_json json_of(const adstar_Quantiles& q) {
           {"max_ns", q.max_ns}};
 }
 
-/// For programs.
-const char* state_word(adstar_ServiceState state) {
-  switch (state) {
-    case adstar_SERVICE_RUNNING:
-      return "running";
-    case adstar_SERVICE_STOPPED:
-      return "stopped";
-    case adstar_SERVICE_HALTED:
-      return "halted";
-    case adstar_SERVICE_WAITING:
-      return "waiting";
-    case adstar_SERVICE_PAUSED:
-      return "paused";
-    case adstar_SERVICE_STANDBY:
-      return "standby";
-  }
-  return "unknown";
-}
-
 }  // namespace
 
 std::string timing_table(const adstar_StepTiming& t) {

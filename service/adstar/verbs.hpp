@@ -24,6 +24,8 @@ Verb add_joint(CLI::App& program);
 Verb add_monitor(CLI::App& program);
 Verb add_list(CLI::App& program);
 Verb add_timing(CLI::App& program);
+/// In service/dashboard/server/verb.cpp.
+Verb add_dashboard(CLI::App& program);
 Verb add_replay(CLI::App& program);
 Verb add_step(CLI::App& program);
 Verb add_pause(CLI::App& program);
