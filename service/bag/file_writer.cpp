@@ -45,8 +45,9 @@ void FileWriter::add(std::size_t topic, std::int64_t received_ns,
   info_.first_ns = info_.messages == 0 ? received_ns : std::min(info_.first_ns, received_ns);
   info_.last_ns = info_.messages == 0 ? received_ns : std::max(info_.last_ns, received_ns);
   ++info_.messages;
+  // Pages are not filled to the brim: rather too much, for then a commit shows how much it is.
   constexpr std::uint64_t kRowAndIndex = 32;
-  pending_bytes_ += payload.size() + kRowAndIndex;
+  pending_bytes_ += (payload.size() + kRowAndIndex) * 5 / 4;
 }
 
 void FileWriter::commit() {

@@ -18,8 +18,8 @@ TEST_P(HelpOf, the_verb_is_golden_and_has_an_example) {
 INSTANTIATE_TEST_SUITE_P(AllVerbs, HelpOf,
                          ::testing::Values("propagate", "check", "trade", "reproduce", "torque",
                                            "wheel", "monitor", "list", "timing", "step", "pause",
-                                           "resume", "reset", "set-state", "set-inertia",
-                                           "completion"),
+                                           "resume", "reset", "set-state", "set-inertia", "record",
+                                           "export", "plot", "completion"),
                          [](const auto& the) {
                            std::string name = the.param;
                            std::replace(name.begin(), name.end(), '-', '_');
