@@ -255,7 +255,8 @@ Verb add_export(CLI::App& program) {
   verb->add_option("--spacecraft", options->spacecraft,
                    "This one, and others given so (default: all; aem: the only one)")
       ->type_name("NAME")
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
   std::string topics(kMotion);
   for (const TopicTable& table : topic_tables()) {
     topics += fmt::format("|{}", table.name);

@@ -170,7 +170,8 @@ Verb add_plot(CLI::App& program) {
   verb->add_option("--spacecraft", options->spacecraft,
                    "This one, and others given so (default: the first 8)")
       ->type_name("NAME")
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
   verb->footer("Example:\n  adstar plot runs/monday --spacecraft sat1 --output monday.svg");
   return {verb, [options] { return plot_recording(*options); }};
 }

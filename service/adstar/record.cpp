@@ -241,7 +241,8 @@ Verb add_record(CLI::App& program) {
       ->type_name("DIR");
   verb->add_option("--topic", options->topics, "This topic, and others given so (default: all)")
       ->type_name("TOPIC")
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
   verb->add_option_function<std::string>(
           "--max-size",
           [options](const std::string& text) { options->max_bytes = bag::parse_size(text); },

@@ -18,10 +18,11 @@ TEST(Completion, is_a_script_that_bash_accepts) {
 }
 
 TEST(Completion, offers_verbs_first) {
-  EXPECT_EQ(
-      completed("adstar ''"),
-      "propagate check trade reproduce torque wheel monitor list timing replay step pause resume "
-      "reset set-state set-inertia completion --help -h --version\n");
+  EXPECT_EQ(completed("adstar ''"),
+            "propagate check trade reproduce torque wheel dipole fire joint monitor list timing "
+            "replay step "
+            "pause resume reset set-state set-inertia record export plot completion --help -h "
+            "--version\n");
   EXPECT_EQ(completed("adstar pro"), "propagate\n");
 }
 
