@@ -60,6 +60,7 @@ std::vector<RecordedTopic> chosen_topics(const std::vector<std::string>& named) 
     wanted.insert(name.starts_with(kPrefix) ? name : std::string(kPrefix) + name);
   }
   std::vector<std::string_view> known;
+  known.reserve(all.size());
   for (const RecordedTopic& topic : all) {
     known.push_back(std::string_view(topic.name).substr(kPrefix.size()));
   }
@@ -159,6 +160,7 @@ class Session {
  private:
   static std::vector<bag::TopicInfo> infos(const std::vector<RecordedTopic>& topics) {
     std::vector<bag::TopicInfo> list;
+    list.reserve(topics.size());
     for (const RecordedTopic& topic : topics) {
       list.push_back(topic.info);
     }

@@ -20,11 +20,11 @@ bag::Recording open_recording(const std::string& directory, const char* verb) {
     bag::Recording recording(directory);
     if (recording.was_unfinished()) {
       fmt::print(stderr,
-                 "adstar {}: '{}' has no metadata.yaml: it is still recorded, or its recorder was "
-                 "killed; {}\n",
+                 "adstar {}: '{}' was not ended: it is still recorded, or its recorder was killed; "
+                 "metadata.yaml {}\n",
                  verb, directory,
-                 recording.mend() ? "one was made from its files"
-                                  : "none could be written there, which does not matter here");
+                 recording.mend() ? "was made from its files"
+                                  : "cannot be written there, which does not matter here");
     }
     return recording;
   } catch (const bag::Error& error) {

@@ -44,6 +44,9 @@ std::vector<fs::path> files_in(const fs::path& directory) {
   return files;
 }
 
+/// Its recorder has not closed it.
+bool has_log(const fs::path& file) { return fs::exists(file.string() + "-wal"); }
+
 /// False where a recorder was killed while it began the file: nothing is in it.
 bool is_laid_out(const Database& database) {
   Statement tables = database.prepare(
@@ -56,7 +59,8 @@ bool is_laid_out(const Database& database) {
 Recording::Recording(const fs::path& directory)
     : directory_(directory),
       files_(files_in(directory)),
-      unfinished_(!fs::exists(directory / kMetadataName)) {}
+      unfinished_(!fs::exists(directory / kMetadataName) ||
+                  std::any_of(files_.begin(), files_.end(), &has_log)) {}
 
 void Recording::for_each(const std::vector<std::string>& topics,
                          const std::function<void(const Message&)>& use) const {

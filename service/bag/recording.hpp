@@ -32,7 +32,7 @@ class Recording {
   /// Counted from the files.
   Metadata count() const;
 
-  /// metadata.yaml was missing when this was opened.
+  /// Nobody had ended it when this was opened: no metadata.yaml, or a file's log stands beside it.
   bool was_unfinished() const { return unfinished_; }
   /// Writes it from what the files have; false when it cannot be written there.
   bool mend() const;

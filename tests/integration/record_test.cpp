@@ -115,8 +115,8 @@ class CdrCursor {
   }
   std::string text() {
     const auto length = next<std::uint32_t>();
-    const std::string value(reinterpret_cast<const char*>(bytes_.subspan(at_, length).data()),
-                            length - 1);
+    std::string value(reinterpret_cast<const char*>(bytes_.subspan(at_, length).data()),
+                      length - 1);
     at_ += length;
     return value;
   }
@@ -393,7 +393,7 @@ TEST(Recorder, killed_leaves_a_recording_that_reads) {
   EXPECT_FALSE(fs::exists(bag + "/metadata.yaml"));
   const Outcome csv = client({"export", bag, "--to", "csv"});
   EXPECT_EQ(csv.code, 0) << csv.err;
-  EXPECT_NE(csv.err.find("one was made from its files"), std::string::npos) << csv.err;
+  EXPECT_NE(csv.err.find("metadata.yaml was made from its files"), std::string::npos) << csv.err;
   EXPECT_GE(std::count(csv.out.begin(), csv.out.end(), '\n'), 100)
       << "of 200, all but the last second";
   EXPECT_TRUE(fs::exists(bag + "/metadata.yaml"));

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace adstar::testing {
 
 struct AemLine {
@@ -141,7 +143,7 @@ class AemParser {
       while (place < order.size() && order[place] != key) {
         ++place;
       }
-      require(place < order.size(), paragraph + ": order of " + key);
+      require(place < order.size(), fmt::format("{}: order of {}", paragraph, key));
       require(!value.empty(), "6.8.7 " + key);
       pairs.emplace_back(key, value);
     }
@@ -150,7 +152,7 @@ class AemParser {
       for (const auto& pair : pairs) {
         found = found || pair.first == key;
       }
-      require(found, paragraph + ": " + key + " is missing");
+      require(found, fmt::format("{}: {} is missing", paragraph, key));
     }
     return pairs;
   }

@@ -85,7 +85,7 @@ TEST(AemText, goes_through_a_leap_second_as_utc_does) {
 }
 
 TEST(AemText, keeps_its_nanoseconds_over_years) {
-  const std::int64_t later = 3 * 365 * 86'400 * kSecond + 123'456'789;
+  const std::int64_t later = std::int64_t{3} * 365 * 86'400 * kSecond + 123'456'789;
   const auto aem = testing::parse_aem(aem_text(some_header("2026-01-01T00:00:00.1Z"), {at(later)}));
   EXPECT_EQ(aem.of("START_TIME"), "2028-12-31T00:00:00.223456789");
 }

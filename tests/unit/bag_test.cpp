@@ -175,6 +175,20 @@ TEST_F(Bags, lost_metadata_is_made_anew_from_the_files_to_the_letter) {
   EXPECT_EQ(text_of("metadata.yaml"), before);
 }
 
+TEST_F(Bags, metadata_older_than_a_file_that_nobody_ended_is_made_anew) {
+  fs::create_directory(home_ / "bag");
+  FileWriter file(home_ / "bag" / "bag_0.db3", kTopics);
+  file.add(0, 1, bytes(3, 1));
+  file.commit();
+  EXPECT_TRUE(Recording(home_ / "bag").mend());
+  file.add(0, 2, bytes(3, 2));
+  file.commit();
+  const Recording recording(home_ / "bag");
+  EXPECT_TRUE(recording.was_unfinished());
+  EXPECT_TRUE(recording.mend());
+  EXPECT_NE(text_of("metadata.yaml").find("  message_count: 2"), std::string::npos);
+}
+
 TEST_F(Bags, an_empty_recording_is_one) {
   writer().finish();
   EXPECT_TRUE(read().empty());
