@@ -6,97 +6,23 @@
 
 #include <gtest/gtest.h>
 
-#include "service/bag/sqlite.hpp"
-#include "tests/integration/daemon_harness.hpp"
+#include "tests/integration/recording_harness.hpp"
 #include "tests/support/aem_parser.hpp"
-#include "tests/support/process.hpp"
 
 namespace adstar {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::at_place;
+using testing::client;
+using testing::counts_in;
 using testing::Daemon;
-using testing::eventually;
-using testing::GroundStation;
+using testing::has_begun;
+using testing::Listener;
 using testing::Outcome;
 using testing::Process;
 using testing::TemporaryDirectory;
-
-/// One spacecraft with a wheel, an orbit and an actuator, one of linked bodies: every kind of telemetry.
-std::string full_scene(const dds::ParticipantOptions& where) {
-  return fmt::format(R"([simulation]
-step = "10ms"
-pace = "clock"
-epoch_utc = 2026-01-01T00:00:00Z
-[[spacecraft]]
-name = "sat1"
-inertia_body_kg_m2 = [0.9144, 1.098, 1.66]
-angular_velocity_body_rad_s = [0.45549, 0.82623, 0.03476]
-[spacecraft.orbit]
-semi_major_axis_m = 6.9e6
-inclination_rad = 1.2
-[[spacecraft.wheel]]
-name = "wheel1"
-axis_body = [0, 0, 1]
-spin_inertia_kg_m2 = 0.02
-speed_rad_s = 20
-viscous_friction_n_m_s_rad = 1e-3
-[[spacecraft.torque]]
-model = "commanded"
-name = "body"
-frame = "body"
-max_torque_n_m = [1.0, 1.0, 1.0]
-[[spacecraft]]
-name = "sat2"
-mass_kg = 100.0
-inertia_body_kg_m2 = [9.0, 11.0, 16.0]
-angular_velocity_body_rad_s = [0.0, 0.1, 0.0]
-[[spacecraft.body]]
-name = "panel"
-mass_kg = 5.0
-inertia_body_kg_m2 = [0.5, 0.2, 0.6]
-[[spacecraft.joint]]
-name = "hinge"
-kind = "revolute"
-from = "hub"
-to = "panel"
-point_from_body_m = [0.0, 0.5, 0.0]
-point_to_body_m = [0.0, -1.0, 0.0]
-axis_body = [1.0, 0.0, 0.0]
-[telemetry]
-attitude_hz = 50
-momentum_hz = 50
-pointing_hz = 10
-wheel_hz = 10
-linked_hz = 10
-[service]
-name = "fly"
-[dds]
-domain = {}
-partition = "{}"
-interface = "{}"
-)",
-                     where.domain, where.partition, where.interface);
-}
-
-std::vector<std::string> at_place(std::vector<std::string> words,
-                                  const dds::ParticipantOptions& where) {
-  words.insert(words.begin(), ADSTAR);
-  words.insert(words.end(), {"--domain", std::to_string(where.domain), "--partition",
-                             where.partition, "--interface", where.interface});
-  return words;
-}
-
-Outcome client(std::vector<std::string> words) {
-  words.insert(words.begin(), ADSTAR);
-  return testing::run(words);
-}
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
+using testing::text_of;
 
 /// The fields of a CDR payload one after another, as the OMG's CDR has them; little-endian.
 class CdrCursor {
@@ -126,64 +52,13 @@ class CdrCursor {
   std::size_t at_ = 0;
 };
 
-/// Keeps every sample of sat1, not only the newest.
-class Listener {
- public:
-  explicit Listener(const dds::ParticipantOptions& where)
-      : participant_(where), attitude_(participant_), momentum_(participant_) {}
-
-  void listen() {
-    while (attitude_.take([&](const adstar_AttitudeState& s, const dds_sample_info_t&) {
-      if (dds::text_of(s.spacecraft) == "sat1") {
-        attitude[s.step] = s;
-      }
-    }) > 0) {}
-    while (momentum_.take([&](const adstar_MomentumState& s, const dds_sample_info_t&) {
-      if (dds::text_of(s.spacecraft) == "sat1") {
-        momentum[s.step] = s;
-      }
-    }) > 0) {}
-  }
-  /// Until so many more of each.
-  bool hear(std::size_t more) {
-    const std::size_t a = attitude.size() + more, m = momentum.size() + more;
-    return eventually([&] {
-      listen();
-      return attitude.size() >= a && momentum.size() >= m;
-    });
-  }
-
-  std::map<std::uint64_t, adstar_AttitudeState> attitude;
-  std::map<std::uint64_t, adstar_MomentumState> momentum;
-
- private:
-  dds::Participant participant_;
-  dds::Reader<adstar_AttitudeState> attitude_;
-  dds::Reader<adstar_MomentumState> momentum_;
-};
-
-bool has_begun(const Process& recorder) {
-  return eventually([&] { return recorder.err().find("Ctrl-C ends it") != std::string::npos; });
-}
-
-std::map<std::string, std::int64_t> counts_in(const fs::path& file) {
-  const bag::Database database(file, bag::Database::Mode::open);
-  auto rows = database.prepare(
-      "SELECT name, COUNT(*) FROM topics JOIN messages ON topic_id = topics.id GROUP BY name");
-  std::map<std::string, std::int64_t> counts;
-  while (rows.step()) {
-    counts[rows.text(0)] = rows.number(1);
-  }
-  return counts;
-}
-
 /// A recording of a few seconds with a command in it, and what a subscriber heard meanwhile.
 class Recorded : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     home_ = std::make_unique<TemporaryDirectory>();
     const auto corner = testing::private_corner();
-    Daemon daemon(full_scene(corner));
+    Daemon daemon(testing::full_scene(corner));
     Listener listener(corner);
     ASSERT_TRUE(listener.hear(5)) << daemon.log();
     Process recorder(at_place({"record", bag().string()}, corner));
@@ -383,80 +258,6 @@ TEST_F(Recorded, plotted_shows_momentum_rates_and_residuals_of_each_spacecraft) 
     EXPECT_NE(svg.find(title), std::string::npos) << title;
   }
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
-}
-
-TEST(Recorder, killed_leaves_a_recording_that_reads) {
-  const auto corner = testing::private_corner();
-  const TemporaryDirectory home;
-  const std::string bag = (home.path() / "bag").string();
-  Daemon daemon(testing::paper_scene(corner, {}));
-  Listener listener(corner);
-  ASSERT_TRUE(listener.hear(5)) << daemon.log();
-  Process recorder(at_place({"record", bag, "--max-duration", "1s"}, corner));
-  ASSERT_TRUE(has_begun(recorder)) << recorder.err();
-  ASSERT_TRUE(listener.hear(200));  // four seconds
-  recorder.send(SIGKILL);
-  EXPECT_EQ(recorder.wait(), 128 + SIGKILL);
-  EXPECT_FALSE(fs::exists(bag + "/metadata.yaml"));
-  const Outcome csv = client({"export", bag, "--to", "csv"});
-  EXPECT_EQ(csv.code, 0) << csv.err;
-  EXPECT_NE(csv.err.find("metadata.yaml was made from its files"), std::string::npos) << csv.err;
-  EXPECT_GE(std::count(csv.out.begin(), csv.out.end(), '\n'), 100)
-      << "of 200, all but the last second";
-  EXPECT_TRUE(fs::exists(bag + "/metadata.yaml"));
-  const Outcome again = client({"export", bag, "--to", "csv"});
-  EXPECT_EQ(again.err, "");
-  EXPECT_EQ(again.out, csv.out);
-  EXPECT_EQ(daemon.stop(), 0);
-}
-
-TEST(Recorder, that_stands_still_holds_nobody_up) {
-  const auto corner = testing::private_corner();
-  const TemporaryDirectory home;
-  Daemon daemon(testing::paper_scene(corner, {.telemetry_hz = 100}));
-  GroundStation ground(corner);
-  ASSERT_TRUE(ground.until([&] { return ground.momentum_samples > 10; })) << daemon.log();
-  Process recorder(at_place({"record", (home.path() / "bag").string()}, corner));
-  ASSERT_TRUE(has_begun(recorder)) << recorder.err();
-  recorder.send(SIGSTOP);
-  const std::uint64_t before = ground.momentum_samples;
-  std::uint64_t last = ground.momentum["sat1"].step, gaps = 0;
-  ground.on_momentum = [&](const adstar_MomentumState& s) {
-    gaps += s.step > last + 1 ? 1 : 0;
-    last = s.step;
-  };
-  ASSERT_TRUE(ground.until([&] { return ground.momentum_samples > before + 300; }));
-  EXPECT_EQ(gaps, 0U) << "others miss samples while a recorder stands";
-  EXPECT_EQ(ground.status->telemetry_lost, 0U);
-  recorder.send(SIGCONT);
-  recorder.send(SIGINT);
-  EXPECT_EQ(recorder.wait(), 0) << recorder.err();
-  EXPECT_EQ(daemon.stop(), 0);
-}
-
-TEST(Recorder, takes_the_topics_that_are_named_and_refuses_others) {
-  const auto corner = testing::private_corner();
-  const TemporaryDirectory home;
-  const std::string bag = (home.path() / "bag").string();
-  const Outcome wrong = testing::run(at_place({"record", bag, "--topic", "momentum_sate"}, corner));
-  EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.err.find("did you mean 'momentum_state'?"), std::string::npos) << wrong.err;
-  EXPECT_FALSE(fs::exists(bag));
-  Daemon daemon(testing::paper_scene(corner, {}));
-  Listener listener(corner);
-  ASSERT_TRUE(listener.hear(5)) << daemon.log();
-  Process recorder(at_place({"record", bag, "--topic", "momentum_state"}, corner));
-  ASSERT_TRUE(has_begun(recorder)) << recorder.err();
-  ASSERT_TRUE(listener.hear(50));
-  recorder.send(SIGTERM);
-  EXPECT_EQ(recorder.wait(), 0) << recorder.err();
-  const auto counts = counts_in(bag + "/bag_0.db3");
-  EXPECT_EQ(counts.size(), 1U);
-  EXPECT_TRUE(counts.contains("/adstar/momentum_state"));
-  const Outcome taken = testing::run(at_place({"record", bag}, corner));
-  EXPECT_EQ(taken.code, 2);
-  EXPECT_NE(taken.err.find("is there already"), std::string::npos) << taken.err;
-  EXPECT_EQ(daemon.stop(), 0);
 }
 
 }  // namespace
