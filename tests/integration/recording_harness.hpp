@@ -99,7 +99,10 @@ inline std::string text_of(const fs::path& file) {
 class Listener {
  public:
   explicit Listener(const dds::ParticipantOptions& where)
-      : participant_(where), attitude_(participant_), momentum_(participant_) {}
+      : participant_(where),
+        commands_(participant_),
+        attitude_(participant_),
+        momentum_(participant_) {}
 
   void listen() {
     while (attitude_.take([&](const adstar_AttitudeState& s, const dds_sample_info_t&) {
@@ -122,11 +125,28 @@ class Listener {
     });
   }
 
+  /// Half a second of torque on sat1, once so many readers of commands are there: daemon and recorder.
+  bool push(std::uint32_t readers) {
+    if (!eventually([&] { return commands_.matched() >= readers; })) {
+      return false;
+    }
+    adstar_TorqueCommand c{};
+    dds::set_text(c.spacecraft, "sat1");
+    dds::set_text(c.actuator, "body");
+    c.commander = {0x1234, static_cast<std::uint64_t>(getpid())};
+    c.sequence_number = 1;
+    c.start_time_ns = runtime::kStartAtNextBeat;
+    c.duration_ns = 500'000'000;
+    c.torque_n_m = {0, 0, 0.1};
+    return commands_.write(c);
+  }
+
   std::map<std::uint64_t, adstar_AttitudeState> attitude;
   std::map<std::uint64_t, adstar_MomentumState> momentum;
 
  private:
   dds::Participant participant_;
+  dds::Writer<adstar_TorqueCommand> commands_;
   dds::Reader<adstar_AttitudeState> attitude_;
   dds::Reader<adstar_MomentumState> momentum_;
 };
