@@ -60,6 +60,8 @@ to = "panel"
 point_from_body_m = [0.0, 0.5, 0.0]
 point_to_body_m = [0.0, -1.0, 0.0]
 axis_body = [1.0, 0.0, 0.0]
+[budget]
+admission = "warn"
 [telemetry]
 attitude_hz = 50
 momentum_hz = 50
