@@ -11,6 +11,7 @@ packages=(
   openssl                                  # keys and certificates of deploy/security
   libspdlog-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libxxhash-dev
   liberfa-dev                              # dates, and how the Earth stands
+  libsqlite3-dev                           # recordings
   libxsimd-dev                             # fleets: several bodies a register
   libcpp-httplib-dev pkg-config            # adstar dashboard serves its page
 )

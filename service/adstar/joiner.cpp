@@ -110,11 +110,23 @@ std::vector<Row> Joiner::ready(bool everything) {
   return rows;
 }
 
-void Joiner::give_out(Track& track, std::vector<Row>& rows, bool everything) {
+/// What waits longest will get no other half.
+bool Joiner::is_overtaken(const Track& track) const {
+  if (patience_ == Patience::rounds) {
+    return track.waiting.size() > 1;
+  }
+  constexpr std::size_t kMostWaiting = 4096;
+  const std::uint64_t oldest = track.waiting.begin()->first;
+  return track.waiting.size() > kMostWaiting ||
+         (track.newest.size() == 2 &&
+          std::all_of(track.newest.begin(), track.newest.end(),
+                      [&](const auto& topic) { return topic.second > oldest; }));
+}
+
+void Joiner::give_out(Track& track, std::vector<Row>& rows, bool everything) const {
   while (!track.waiting.empty()) {
     const auto oldest = track.waiting.begin();
-    const bool overtaken = track.waiting.size() > 1;
-    if (oldest->second.halves != kBoth && !overtaken && !everything) {
+    if (oldest->second.halves != kBoth && !everything && !is_overtaken(track)) {
       return;
     }
     track.begun = true;

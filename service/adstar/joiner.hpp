@@ -17,6 +17,11 @@ namespace adstar::cli {
 
 class Joiner {
  public:
+  /// Rows come late rather than halved: a half waits until the other topic, if there is one, has gone past
+  /// its step (or 4,096 more came). For recordings, where the halves may stand far apart.
+  enum class Patience { rounds, both_topics };
+  explicit Joiner(Patience patience = Patience::rounds) : patience_(patience) {}
+
   void add(const adstar_AttitudeState& sample);
   void add(const adstar_MomentumState& sample);
   /// Of spacecraft that have no topics of their own; the others are told by their halves.
@@ -47,8 +52,10 @@ class Joiner {
   template <class Sample>
   Row* place(const Sample& sample, Half half);
   std::vector<Row> ready(bool everything);
-  static void give_out(Track& track, std::vector<Row>& rows, bool everything);
+  void give_out(Track& track, std::vector<Row>& rows, bool everything) const;
+  bool is_overtaken(const Track& track) const;
 
+  Patience patience_;
   std::map<std::string, Track, std::less<>> tracks_;
   std::map<std::string, std::uint64_t, std::less<>> fleet_steps_;
   std::vector<Row> restarted_;  ///< of runs that ended before the present one

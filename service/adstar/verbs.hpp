@@ -33,6 +33,9 @@ Verb add_resume(CLI::App& program);
 Verb add_reset(CLI::App& program);
 Verb add_set_state(CLI::App& program);
 Verb add_set_inertia(CLI::App& program);
+Verb add_record(CLI::App& program);
+Verb add_export(CLI::App& program);
+Verb add_plot(CLI::App& program);
 /// Reads the finished option tree when it runs.
 Verb add_completion(CLI::App& program);
 

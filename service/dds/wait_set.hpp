@@ -8,7 +8,6 @@
 
 #include "service/dds/entity.hpp"
 #include "service/dds/participant.hpp"
-#include "service/dds/reader.hpp"
 
 namespace adstar::dds {
 
@@ -17,8 +16,9 @@ class WaitSet {
  public:
   explicit WaitSet(const Participant& participant);
 
-  template <class T>
-  void attach(const Reader<T>& reader) {
+  /// A Reader of some topic, or a RawReader.
+  template <class AnyReader>
+  void attach(const AnyReader& reader) {
     attach_reader(reader.handle());
   }
 

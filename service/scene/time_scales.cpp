@@ -4,6 +4,8 @@
 #include <cmath>
 #include <erfa.h>
 
+#include <fmt/format.h>
+
 namespace adstar::scene {
 namespace {
 
@@ -125,6 +127,24 @@ std::optional<std::int64_t> nanoseconds_from(const TaiDate& begin, const TaiDate
   const double rest = (days - whole) + (end.fraction - begin.fraction);
   return static_cast<std::int64_t>(whole) * kDay_ns +
          std::llround(rest * static_cast<double>(kDay_ns));
+}
+
+std::optional<std::string> utc_text(const TaiDate& begin, std::int64_t later_ns) {
+  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+  constexpr int kDecimals = 9;
+  const std::int64_t days = later_ns / kDay_ns;
+  const double rest = static_cast<double>(later_ns % kDay_ns) / static_cast<double>(kDay_ns);
+  double utc = 0, utc_fraction = 0;
+  int year = 0, month = 0, day = 0;
+  int clock[4] = {};
+  if (eraTaiutc(begin.day + static_cast<double>(days), begin.fraction + rest, &utc, &utc_fraction) <
+          0 ||
+      eraD2dtf("UTC", kDecimals, utc, utc_fraction, &year, &month, &day, clock) < 0 || year < 1 ||
+      year > 9999) {
+    return std::nullopt;
+  }
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:09}", year, month, day, clock[0],
+                     clock[1], clock[2], clock[3]);
 }
 
 double days_since_j2000(const TaiDate& date) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "adstar/earth/rotation.hpp"
@@ -26,6 +27,10 @@ std::optional<TaiDate> tai_date_of_epoch(std::string_view epoch);
 
 /// From one to the other [ns]; nothing beyond 292 years.
 std::optional<std::int64_t> nanoseconds_from(const TaiDate& begin, const TaiDate& end);
+
+/// The date so long after `begin` (SI seconds), in UTC: "2026-01-01T00:00:00.500000000", a leap second
+/// as 60. Nothing outside the years 1 to 9999.
+std::optional<std::string> utc_text(const TaiDate& begin, std::int64_t later_ns);
 
 /// Julian years, 2000.0 at noon of the 1st of January 2000 TT.
 double julian_year(const TaiDate& date);

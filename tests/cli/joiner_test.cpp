@@ -111,6 +111,20 @@ TEST(Joiner, a_daemon_that_begins_anew_is_heard_from_its_first_step) {
   EXPECT_EQ(described(joiner.end_round()), "sat1@1000:attitude sat1@0:both");
 }
 
+TEST(Joiner, with_patience_waits_for_halves_that_stand_far_apart) {
+  Joiner joiner(Joiner::Patience::both_topics);
+  joiner.add(attitude(1));
+  joiner.add(attitude(2));
+  joiner.add(attitude(3));
+  EXPECT_EQ(described(joiner.end_round()), "");
+  joiner.add(momentum(1));
+  joiner.add(momentum(3));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@1:both sat1@2:attitude sat1@3:both");
+  joiner.add(attitude(4));
+  EXPECT_EQ(described(joiner.end_round()), "");
+  EXPECT_EQ(described(joiner.rest()), "sat1@4:attitude");
+}
+
 TEST(Joiner, fleet_samples_speak_only_for_spacecraft_without_topics_of_their_own) {
   Joiner joiner;
   adstar_FleetState fleet{};

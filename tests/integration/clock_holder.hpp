@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "service/dds/reader.hpp"
 #include "service/dds/wait_set.hpp"
 #include "tests/integration/daemon_harness.hpp"
 #include "tests/support/text.hpp"

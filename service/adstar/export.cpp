@@ -1,0 +1,288 @@
+// adstar export: what `adstar record` wrote, as CSV or as a CCSDS Attitude Ephemeris Message.
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "service/adstar/failure.hpp"
+#include "service/adstar/joiner.hpp"
+#include "service/adstar/output.hpp"
+#include "service/adstar/recording_input.hpp"
+#include "service/adstar/topic_rows.hpp"
+#include "service/adstar/usage.hpp"
+#include "service/adstar/verbs.hpp"
+#include "service/bag/sqlite.hpp"
+#include "service/dds/convert.hpp"
+#include "service/report/aem.hpp"
+#include "service/scene/nearest.hpp"
+#include "service/scene/time_scales.hpp"
+
+namespace adstar::cli {
+namespace {
+
+constexpr const char* kVerb = "export";
+constexpr std::string_view kMotion = "motion";
+
+struct Options {
+  std::string recording, format, output, topic{kMotion};
+  std::vector<std::string> spacecraft;
+  std::string epoch_utc, frame = "GCRF", object_id = "UNKNOWN", originator = "ADSTAR";
+};
+
+/// Says yes to a spacecraft that was asked for, and knows which there were.
+class Wanted {
+ public:
+  explicit Wanted(const std::vector<std::string>& names) : names_(names.begin(), names.end()) {}
+  bool operator()(std::string_view spacecraft) {
+    if (!seen_.contains(spacecraft)) {
+      seen_.emplace(spacecraft);
+    }
+    return names_.empty() || names_.contains(spacecraft);
+  }
+  /// Throws Failure when somebody asked for is not in the recording.
+  void require_all_seen() const {
+    const std::vector<std::string_view> known(seen_.begin(), seen_.end());
+    for (const std::string& name : names_) {
+      if (!seen_.contains(name)) {
+        throw Failure(kUsage, fmt::format("there is no '{}' in the recording; {}", name,
+                                          known.empty() ? "it tells of no spacecraft"
+                                                        : "there are " + scene::joined(known)));
+      }
+    }
+  }
+  const std::set<std::string, std::less<>>& seen() const { return seen_; }
+
+ private:
+  std::set<std::string, std::less<>> names_, seen_;
+};
+
+/// Attitude and momentum of a step in one row, as `adstar propagate` and `monitor` print them.
+void export_motion(const bag::Recording& recording, Wanted& wanted, Output& output) {
+  constexpr std::uint64_t kRound = 1024;
+  Joiner joiner(Joiner::Patience::both_topics);
+  const auto print = [&](const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+      append_csv(output.buffer(), row);
+      output.flush_if_full();
+    }
+  };
+  append_csv_header(output.buffer());
+  std::uint64_t unreadable = 0, messages = 0;
+  const auto add = [&](const auto& sample) {
+    if (wanted(dds::text_of(sample.spacecraft))) {
+      joiner.add(sample);
+    }
+  };
+  const std::string attitude = recorded_name<adstar_AttitudeState>();
+  recording.for_each(
+      {attitude, recorded_name<adstar_MomentumState>()}, [&](const bag::Message& message) {
+        const bool read = message.topic == attitude
+                              ? dds::with_sample<adstar_AttitudeState>(message.payload, add)
+                              : dds::with_sample<adstar_MomentumState>(message.payload, add);
+        unreadable += read ? 0 : 1;
+        if (++messages % kRound == 0) {
+          print(joiner.end_round());
+        }
+      });
+  print(joiner.rest());
+  say_unreadable(unreadable, kVerb);
+}
+
+const TopicTable& table_of(const std::string& topic) {
+  std::vector<std::string_view> known{kMotion};
+  for (const TopicTable& table : topic_tables()) {
+    if (table.name == topic) {
+      return table;
+    }
+    known.push_back(table.name);
+  }
+  throw Failure(kUsage, fmt::format("--topic: got '{}', expected one of {}; try {}", topic,
+                                    scene::joined(known),
+                                    scene::nearest_plausible(topic, known).value_or(kMotion)));
+}
+
+void export_topic(const bag::Recording& recording, const TopicTable& table, Wanted& wanted,
+                  Output& output) {
+  output.buffer() += table.columns;
+  std::uint64_t unreadable = 0;
+  recording.for_each({fmt::format("/adstar/{}", table.name)}, [&](const bag::Message& message) {
+    const bool read = table.append(output.buffer(), message.payload, std::ref(wanted));
+    unreadable += read ? 0 : 1;
+    output.flush_if_full();
+  });
+  say_unreadable(unreadable, kVerb);
+}
+
+/// The points of one spacecraft, in time. A daemon that began anew makes time run back: the last run is taken.
+std::vector<report::AttitudePoint> points_of(const bag::Recording& recording, Wanted& wanted) {
+  std::vector<report::AttitudePoint> points;
+  std::size_t dropped = 0;
+  const auto add = [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
+    if (!wanted(dds::text_of(s.spacecraft))) {
+      return;
+    }
+    if (!points.empty() && s.time_ns < points.back().time_ns) {
+      dropped += points.size();
+      points.clear();
+    }
+    if (points.empty() || s.time_ns > points.back().time_ns) {
+      const adstar_Quaternion& q = s.attitude_body_to_inertial;
+      const adstar_Vector3& omega = s.angular_velocity_body_rad_s;
+      points.push_back({s.time_ns, {q.w, q.x, q.y, q.z}, {omega.x, omega.y, omega.z}});
+    }
+  };
+  say_unreadable(for_each_sample<adstar_AttitudeState>(recording, add), kVerb);
+  if (dropped > 0) {
+    fmt::print(
+        stderr,
+        "adstar export: simulation time began anew in this recording; the last run is exported, "
+        "{} attitudes before it are not\n",
+        dropped);
+  }
+  return points;
+}
+
+/// The one asked for, or the only one there is.
+std::string only_spacecraft(const bag::Recording& recording, const Options& options) {
+  if (options.spacecraft.size() > 1) {
+    throw Failure(kUsage, "an AEM is about one spacecraft; give one --spacecraft");
+  }
+  Wanted wanted(options.spacecraft);
+  for_each_sample<adstar_AttitudeState>(
+      recording, [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
+        wanted(dds::text_of(s.spacecraft));
+      });
+  wanted.require_all_seen();
+  if (wanted.seen().empty()) {
+    throw Failure(kUsage,
+                  "there is no attitude_state in the recording; was it left out by --topic?");
+  }
+  if (options.spacecraft.empty() && wanted.seen().size() > 1) {
+    const std::vector<std::string_view> known(wanted.seen().begin(), wanted.seen().end());
+    throw Failure(kUsage, fmt::format("an AEM is about one spacecraft, and there are {}; give one "
+                                      "--spacecraft",
+                                      scene::joined(known)));
+  }
+  return options.spacecraft.empty() ? *wanted.seen().begin() : options.spacecraft.front();
+}
+
+scene::TaiDate epoch_of(const Options& options) {
+  constexpr const char* kTry = "try --epoch-utc 2026-01-01T00:00:00Z";
+  if (options.epoch_utc.empty()) {
+    throw Failure(kUsage,
+                  fmt::format("--to aem needs --epoch-utc, the date of simulation time 0 (the "
+                              "scene's epoch_utc): recordings do not carry it; {}",
+                              kTry));
+  }
+  const auto date = scene::tai_date(options.epoch_utc, scene::Clock::utc);
+  if (!date) {
+    throw Failure(kUsage, fmt::format("--epoch-utc: got '{}', expected a date and time in UTC; {}",
+                                      options.epoch_utc, kTry));
+  }
+  return *date;
+}
+
+void export_aem(const bag::Recording& recording, const Options& options, Output& output) {
+  report::AemHeader header;
+  header.epoch = epoch_of(options);
+  header.object_name = only_spacecraft(recording, options);
+  header.object_id = options.object_id;
+  header.originator = options.originator;
+  header.inertial_frame = options.frame;
+  header.creation_utc = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::time(nullptr)));
+  Wanted wanted({header.object_name});
+  try {
+    output.buffer() = report::aem_text(header, points_of(recording, wanted));
+  } catch (const std::invalid_argument& error) {
+    throw Failure(kFailed, error.what());
+  }
+}
+
+int export_recording(const Options& options) {
+  const TopicTable* const table = options.topic == kMotion ? nullptr : &table_of(options.topic);
+  if (options.format == "aem") {
+    epoch_of(options);  // before the work
+    if (table != nullptr) {
+      throw Failure(kUsage, "--topic: an AEM is made from attitude_state alone; leave it out");
+    }
+  }
+  const bag::Recording recording = open_recording(options.recording, kVerb);
+  Output output = options.output.empty() ? Output::to_stdout() : Output::to_file(options.output);
+  Wanted wanted(options.spacecraft);
+  try {
+    if (options.format == "aem") {
+      export_aem(recording, options, output);
+    } else if (table != nullptr) {
+      export_topic(recording, *table, wanted, output);
+    } else {
+      export_motion(recording, wanted, output);
+    }
+  } catch (const bag::Error& error) {
+    throw Failure(kFailed, error.what());
+  }
+  if (options.format == "csv" && options.topic != "fleet_state") {
+    wanted.require_all_seen();
+  }
+  output.commit();
+  return kDone;
+}
+
+}  // namespace
+
+Verb add_export(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb = program.add_subcommand("export", "A recording as CSV or as a CCSDS AEM");
+  add_recording(*verb, options->recording);
+  verb->add_option("--to", options->format, "Rows, or an Attitude Ephemeris Message 2.0 (KVN)")
+      ->type_name("csv|aem")
+      ->required()
+      ->check(CLI::Validator(
+          [](std::string& format) {
+            return format == "csv" || format == "aem"
+                       ? std::string()
+                       : fmt::format("got '{}', expected csv or aem; try csv", format);
+          },
+          ""));
+  verb->add_option("--output", options->output,
+                   "Write there, whole or not at all (default: stdout)")
+      ->type_name("FILE");
+  verb->add_option("--spacecraft", options->spacecraft,
+                   "This one, and others given so (default: all; aem: the only one)")
+      ->type_name("NAME")
+      ->take_all()
+      ->allow_extra_args(false);
+  std::string topics(kMotion);
+  for (const TopicTable& table : topic_tables()) {
+    topics += fmt::format("|{}", table.name);
+  }
+  verb->add_option("--topic", options->topic,
+                   "csv: which rows; motion is attitude and momentum of a step in one")
+      ->type_name(topics)
+      ->capture_default_str();
+  verb->add_option("--epoch-utc", options->epoch_utc,
+                   "aem: the date of simulation time 0, as the scene's epoch_utc")
+      ->type_name("DATE");
+  verb->add_option("--frame", options->frame, "aem: what I is called (SANA's names of frames)")
+      ->type_name("FRAME")
+      ->capture_default_str();
+  verb->add_option("--object-id", options->object_id, "aem: international designator, as 2026-001A")
+      ->type_name("ID")
+      ->capture_default_str();
+  verb->add_option("--originator", options->originator, "aem: who made it (SANA's organizations)")
+      ->type_name("NAME")
+      ->capture_default_str();
+  verb->footer(
+      "Example:\n"
+      "  adstar export runs/monday --to csv --output monday.csv\n"
+      "  adstar export runs/monday --to csv --topic wheel_state --spacecraft sat1\n"
+      "  adstar export runs/monday --to aem --epoch-utc 2026-01-01T00:00:00Z --output monday.aem");
+  return {verb, [options] { return export_recording(*options); }};
+}
+
+}  // namespace adstar::cli

@@ -1,0 +1,179 @@
+// adstar plot: a recording's momentum, rates and residuals over time, as SVG.
+
+#include "service/plot/plot.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "service/adstar/failure.hpp"
+#include "service/adstar/output.hpp"
+#include "service/adstar/recording_input.hpp"
+#include "service/adstar/services.hpp"
+#include "service/adstar/thinned.hpp"
+#include "service/adstar/usage.hpp"
+#include "service/adstar/verbs.hpp"
+#include "service/bag/sqlite.hpp"
+#include "service/dds/convert.hpp"
+#include "service/scene/nearest.hpp"
+
+namespace adstar::cli {
+namespace {
+
+constexpr const char* kVerb = "plot";
+constexpr std::size_t kMostDrawn = 8;         ///< spacecraft, unless they are named
+constexpr std::size_t kMostStretches = 1000;  ///< more than the pixels of an axis
+constexpr double kNanosecond_s = 1e-9;
+
+struct Options {
+  std::string recording, output;
+  std::vector<std::string> spacecraft;
+};
+
+using Vector = std::array<std::vector<plot::Point>, 3>;
+
+/// What is drawn of one spacecraft, over simulation time [s].
+struct History {
+  Vector momentum_I, omega_B, momentum_residual_I;
+  std::vector<plot::Point> energy_residual;
+};
+
+void add(Vector& series, double t, const adstar_Vector3& v) {
+  series[0].push_back({t, v.x});
+  series[1].push_back({t, v.y});
+  series[2].push_back({t, v.z});
+}
+
+using Histories = std::map<std::string, History, std::less<>>;
+
+/// Null: not wanted, or more spacecraft than memory is to hold.
+History* history_of(Histories& histories, std::string_view spacecraft,
+                    const std::set<std::string, std::less<>>& wanted) {
+  constexpr std::size_t kMostHeld = 1000;
+  const auto known = histories.find(spacecraft);
+  if (known != histories.end()) {
+    return &known->second;
+  }
+  const bool wants = wanted.empty() || wanted.contains(spacecraft);
+  return wants && histories.size() < kMostHeld ? &histories[std::string(spacecraft)] : nullptr;
+}
+
+Histories read_histories(const bag::Recording& recording, const Options& options) {
+  const std::set<std::string, std::less<>> wanted(options.spacecraft.begin(),
+                                                  options.spacecraft.end());
+  Histories histories;
+  std::uint64_t unreadable = for_each_sample<adstar_MomentumState>(
+      recording, [&](const adstar_MomentumState& s, std::int64_t /*received_ns*/) {
+        if (History* const h = history_of(histories, dds::text_of(s.spacecraft), wanted)) {
+          const double t = static_cast<double>(s.time_ns) * kNanosecond_s;
+          add(h->momentum_I, t, s.momentum_inertial_n_m_s);
+          add(h->momentum_residual_I, t, s.momentum_residual_inertial_n_m_s);
+          h->energy_residual.push_back({t, s.energy_residual_j});
+        }
+      });
+  unreadable += for_each_sample<adstar_AttitudeState>(
+      recording, [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
+        if (History* const h = history_of(histories, dds::text_of(s.spacecraft), wanted)) {
+          add(h->omega_B, static_cast<double>(s.time_ns) * kNanosecond_s,
+              s.angular_velocity_body_rad_s);
+        }
+      });
+  say_unreadable(unreadable, kVerb);
+  return histories;
+}
+
+plot::Panel panel(const std::string& title, const std::string& label, const Vector& vector) {
+  constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+  plot::Panel panel{title, {"simulation time [s]"}, {label}, {}};
+  for (std::size_t i = 0; i < vector.size(); ++i) {
+    panel.series.push_back({kNames[i], thinned(vector[i], kMostStretches), false});
+  }
+  return panel;
+}
+
+std::vector<plot::Panel> panels_of(const std::string& name, const History& h) {
+  std::vector<plot::Panel> panels;
+  if (!h.momentum_I[0].empty()) {
+    panels.push_back(
+        panel(name + ": angular momentum, inertial frame", "H_I [N m s]", h.momentum_I));
+  }
+  if (!h.omega_B[0].empty()) {
+    panels.push_back(panel(name + ": angular velocity, body frame", "omega_B [rad/s]", h.omega_B));
+  }
+  if (!h.energy_residual.empty()) {
+    plot::Panel energy{
+        name + ": energy residual", {"simulation time [s]"}, {"E - E_0 - W [J]"}, {}};
+    energy.series.push_back({"energy residual", thinned(h.energy_residual, kMostStretches), false});
+    panels.push_back(std::move(energy));
+    panels.push_back(panel(name + ": momentum residual, inertial frame",
+                           "H_I - H_0 - impulse [N m s]", h.momentum_residual_I));
+  }
+  return panels;
+}
+
+int plot_recording(const Options& options) {
+  const bag::Recording recording = open_recording(options.recording, kVerb);
+  Histories histories;
+  try {
+    histories = read_histories(recording, options);
+  } catch (const bag::Error& error) {
+    throw Failure(kFailed, error.what());
+  }
+  for (const std::string& name : options.spacecraft) {
+    if (!histories.contains(name)) {
+      throw Failure(kUsage, fmt::format("there is no '{}' in the recording; `adstar export {} --to "
+                                        "csv` shows who is",
+                                        name, options.recording));
+    }
+  }
+  if (histories.empty()) {
+    throw Failure(
+        kUsage,
+        "there is no attitude_state or momentum_state in the recording; was it left out by "
+        "--topic?");
+  }
+  std::vector<plot::Panel> panels;
+  std::size_t drawn = 0;
+  for (const auto& [name, history] : histories) {
+    if (options.spacecraft.empty() && drawn == kMostDrawn) {
+      fmt::print(
+          stderr,
+          "adstar plot: the first {} of {} spacecraft are drawn; --spacecraft chooses others\n",
+          kMostDrawn, histories.size());
+      break;
+    }
+    ++drawn;
+    for (plot::Panel& panel : panels_of(printable(name), history)) {
+      panels.push_back(std::move(panel));
+    }
+  }
+  Output output = options.output.empty() ? Output::to_stdout() : Output::to_file(options.output);
+  output.buffer() = plot::svg("Recording " + printable(options.recording), panels);
+  output.commit();
+  return kDone;
+}
+
+}  // namespace
+
+Verb add_plot(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      program.add_subcommand("plot", "A recording's momentum, rates and residuals as SVG");
+  add_recording(*verb, options->recording);
+  verb->add_option("--output", options->output,
+                   "Write there, whole or not at all (default: stdout)")
+      ->type_name("FILE");
+  verb->add_option("--spacecraft", options->spacecraft,
+                   "This one, and others given so (default: the first 8)")
+      ->type_name("NAME")
+      ->take_all()
+      ->allow_extra_args(false);
+  verb->footer("Example:\n  adstar plot runs/monday --spacecraft sat1 --output monday.svg");
+  return {verb, [options] { return plot_recording(*options); }};
+}
+
+}  // namespace adstar::cli

@@ -1,0 +1,44 @@
+#include "service/adstar/recording_input.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "service/adstar/failure.hpp"
+#include "service/bag/sqlite.hpp"
+#include "service/report/numbers.hpp"
+
+namespace adstar::cli {
+
+void add_recording(CLI::App& verb, std::string& directory) {
+  verb.add_option("recording", directory, "Directory that `adstar record` made")
+      ->type_name("DIR")
+      ->required();
+}
+
+bag::Recording open_recording(const std::string& directory, const char* verb) {
+  try {
+    bag::Recording recording(directory);
+    if (recording.was_unfinished()) {
+      fmt::print(stderr,
+                 "adstar {}: '{}' was not ended: it is still recorded, or its recorder was killed; "
+                 "metadata.yaml {}\n",
+                 verb, directory,
+                 recording.mend() ? "was made from its files"
+                                  : "cannot be written there, which does not matter here");
+    }
+    return recording;
+  } catch (const bag::Error& error) {
+    throw Failure(kUsage, error.what());
+  }
+}
+
+void say_unreadable(std::uint64_t count, const char* verb) {
+  if (count > 0) {
+    fmt::print(stderr,
+               "adstar {}: {} samples are not of the types that this program knows, and were left "
+               "out; was it recorded with another version?\n",
+               verb, report::counted(count));
+  }
+}
+
+}  // namespace adstar::cli

@@ -1,0 +1,114 @@
+#include "service/bag/metadata.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "service/bag/sqlite.hpp"
+
+namespace adstar::bag {
+namespace {
+
+/// A YAML scalar in double quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      out += "\\n";
+    } else if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (static_cast<unsigned char>(c) < ' ') {
+      out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
+
+}  // namespace
+
+std::uint64_t Metadata::messages() const {
+  return std::accumulate(files.begin(), files.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const FileInfo& f) { return sum + f.messages; });
+}
+
+std::int64_t Metadata::first_ns() const {
+  const auto file =
+      std::find_if(files.begin(), files.end(), [](const FileInfo& f) { return f.messages > 0; });
+  return file == files.end() ? 0 : file->first_ns;
+}
+
+std::int64_t Metadata::last_ns() const {
+  const auto file =
+      std::find_if(files.rbegin(), files.rend(), [](const FileInfo& f) { return f.messages > 0; });
+  return file == files.rend() ? 0 : file->last_ns;
+}
+
+std::string to_yaml(const Metadata& m) {
+  std::string text = fmt::format(
+      "rosbag2_bagfile_information:\n"
+      "  version: 5\n"
+      "  storage_identifier: sqlite3\n"
+      "  duration:\n"
+      "    nanoseconds: {}\n"
+      "  starting_time:\n"
+      "    nanoseconds_since_epoch: {}\n"
+      "  message_count: {}\n",
+      m.last_ns() - m.first_ns(), m.first_ns(), m.messages());
+  text += m.topics.empty() ? "  topics_with_message_count: []\n" : "  topics_with_message_count:\n";
+  for (const TopicCount& t : m.topics) {
+    text += fmt::format(
+        "    - topic_metadata:\n"
+        "        name: {}\n"
+        "        type: {}\n"
+        "        serialization_format: cdr\n"
+        "        offered_qos_profiles: {}\n"
+        "      message_count: {}\n",
+        t.topic.name, t.topic.type, quoted(t.topic.offered_qos), t.messages);
+  }
+  text +=
+      "  compression_format: \"\"\n"
+      "  compression_mode: \"\"\n"
+      "  relative_file_paths:\n";
+  for (const FileInfo& file : m.files) {
+    text += fmt::format("    - {}\n", quoted(file.name));
+  }
+  text += "  files:\n";
+  for (const FileInfo& file : m.files) {
+    text += fmt::format(
+        "    - path: {}\n"
+        "      starting_time:\n"
+        "        nanoseconds_since_epoch: {}\n"
+        "      duration:\n"
+        "        nanoseconds: {}\n"
+        "      message_count: {}\n",
+        quoted(file.name), file.first_ns, file.last_ns - file.first_ns, file.messages);
+  }
+  return text;
+}
+
+void write_metadata(const Metadata& metadata, const std::filesystem::path& directory) {
+  const auto target = directory / kMetadataName;
+  const auto part = directory / ".metadata.yaml.part";
+  std::error_code renamed;
+  {
+    std::ofstream out(part, std::ios::binary | std::ios::trunc);
+    out << to_yaml(metadata);
+    out.flush();
+    if (out) {
+      std::filesystem::rename(part, target, renamed);
+    }
+    if (!out || renamed) {
+      throw Error(
+          fmt::format("cannot write '{}'; make room, or choose a directory that you may "
+                      "write to",
+                      target.string()));
+    }
+  }
+}
+
+}  // namespace adstar::bag

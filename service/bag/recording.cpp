@@ -1,0 +1,135 @@
+#include "service/bag/recording.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "service/bag/sqlite.hpp"
+
+namespace adstar::bag {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// NAME_12.db3: 12; what has no number comes first.
+std::int64_t number_of(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t bar = stem.rfind('_');
+  std::int64_t number = -1;
+  if (bar != std::string::npos) {
+    std::from_chars(stem.data() + bar + 1, stem.data() + stem.size(), number);
+  }
+  return number;
+}
+
+std::vector<fs::path> files_in(const fs::path& directory) {
+  std::error_code error;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    if (entry.path().extension() == ".db3") {
+      files.push_back(entry.path());
+    }
+  }
+  if (error || files.empty()) {
+    throw Error(fmt::format(
+        "'{}': {}; expected the directory that `adstar record` made, with a "
+        ".db3 file in it",
+        directory.string(), error ? error.message() : std::string("there is no .db3 file in it")));
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return std::pair(number_of(a), a) < std::pair(number_of(b), b);
+  });
+  return files;
+}
+
+/// Its recorder has not closed it.
+bool has_log(const fs::path& file) { return fs::exists(file.string() + "-wal"); }
+
+/// False where a recorder was killed while it began the file: nothing is in it.
+bool is_laid_out(const Database& database) {
+  Statement tables = database.prepare(
+      "SELECT COUNT(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', 'messages')");
+  return tables.step() && tables.number(0) == 2;
+}
+
+}  // namespace
+
+Recording::Recording(const fs::path& directory)
+    : directory_(directory),
+      files_(files_in(directory)),
+      unfinished_(!fs::exists(directory / kMetadataName) ||
+                  std::any_of(files_.begin(), files_.end(), &has_log)) {}
+
+void Recording::for_each(const std::vector<std::string>& topics,
+                         const std::function<void(const Message&)>& use) const {
+  for (const fs::path& file : files_) {
+    const Database database(file, Database::Mode::open);
+    if (!is_laid_out(database)) {
+      continue;
+    }
+    std::map<std::int64_t, std::string> names;
+    std::string wanted;
+    Statement rows = database.prepare("SELECT id, name FROM topics");
+    while (rows.step()) {
+      if (std::find(topics.begin(), topics.end(), rows.text(1)) != topics.end()) {
+        names.emplace(rows.number(0), rows.text(1));
+        wanted += (wanted.empty() ? "" : ",") + std::to_string(rows.number(0));
+      }
+    }
+    Statement messages = database.prepare(
+        fmt::format("SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({}) "
+                    "ORDER BY timestamp, id",
+                    wanted));
+    while (messages.step()) {
+      use({names.at(messages.number(0)), messages.number(1), messages.bytes(2)});
+    }
+  }
+}
+
+Metadata Recording::count() const {
+  Metadata metadata;
+  for (const fs::path& path : files_) {
+    const Database database(path, Database::Mode::open);
+    if (!is_laid_out(database)) {
+      continue;
+    }
+    FileInfo file;
+    file.name = path.filename().string();
+    Statement span =
+        database.prepare("SELECT COUNT(*), MIN(timestamp), MAX(timestamp) FROM messages");
+    span.step();
+    file.messages = static_cast<std::uint64_t>(span.number(0));
+    file.first_ns = span.number(1);
+    file.last_ns = span.number(2);
+    metadata.files.push_back(file);
+    Statement topics = database.prepare(
+        "SELECT name, type, offered_qos_profiles, COALESCE(n, 0) FROM topics LEFT JOIN "
+        "(SELECT topic_id, COUNT(*) AS n FROM messages GROUP BY topic_id) ON topic_id = id "
+        "ORDER BY id");
+    while (topics.step()) {
+      const TopicInfo topic{topics.text(0), topics.text(1), topics.text(2)};
+      const auto known =
+          std::find_if(metadata.topics.begin(), metadata.topics.end(),
+                       [&](const TopicCount& t) { return t.topic.name == topic.name; });
+      TopicCount& count = known != metadata.topics.end()
+                              ? *known
+                              : metadata.topics.emplace_back(TopicCount{topic, 0});
+      count.messages += static_cast<std::uint64_t>(topics.number(3));
+    }
+  }
+  return metadata;
+}
+
+bool Recording::mend() const {
+  const Metadata metadata = count();
+  try {
+    write_metadata(metadata, directory_);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace adstar::bag

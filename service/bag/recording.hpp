@@ -1,0 +1,46 @@
+#pragma once
+// A recording read back: every message in the order of its reception, over all files. The files are
+// what counts; a metadata.yaml that a killed recorder left unwritten is made from them.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "service/bag/metadata.hpp"
+
+namespace adstar::bag {
+
+struct Message {
+  const std::string& topic;
+  std::int64_t received_ns;
+  std::span<const std::byte> payload;  ///< CDR with its encapsulation header; lent for the call
+};
+
+class Recording {
+ public:
+  /// Throws Error when there is no recording.
+  explicit Recording(const std::filesystem::path& directory);
+
+  /// Of the topics named, those that are in it; throws Error on a file that cannot be read.
+  void for_each(const std::vector<std::string>& topics,
+                const std::function<void(const Message&)>& use) const;
+
+  /// Counted from the files.
+  Metadata count() const;
+
+  /// Nobody had ended it when this was opened: no metadata.yaml, or a file's log stands beside it.
+  bool was_unfinished() const { return unfinished_; }
+  /// Writes it from what the files have; false when it cannot be written there.
+  bool mend() const;
+
+ private:
+  std::filesystem::path directory_;
+  std::vector<std::filesystem::path> files_;
+  bool unfinished_ = false;
+};
+
+}  // namespace adstar::bag

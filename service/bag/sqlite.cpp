@@ -1,0 +1,112 @@
+#include "service/bag/sqlite.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+namespace adstar::bag {
+namespace {
+
+[[noreturn]] void fail(sqlite3* database, int code, const std::filesystem::path& file) {
+  const int primary = code & 0xff;
+  const char* const remedy =
+      primary == SQLITE_FULL       ? "make room on the disk"
+      : primary == SQLITE_CANTOPEN ? "choose a directory that you may write to"
+      : primary == SQLITE_READONLY
+          ? "copy the recording to where you may write: its log has to be merged"
+      : primary == SQLITE_NOTADB || primary == SQLITE_CORRUPT
+          ? "is it a recording? `sqlite3 FILE .recover` saves what can be saved"
+          : "see the disk, and who else has the file open";
+  throw Error(fmt::format("'{}': {}; {}", file.string(),
+                          database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code),
+                          remedy));
+}
+
+}  // namespace
+
+void Statement::Finalize::operator()(sqlite3_stmt* statement) const noexcept {
+  sqlite3_finalize(statement);
+}
+
+void Database::Close::operator()(sqlite3* database) const noexcept { sqlite3_close(database); }
+
+Statement::Statement(sqlite3* database, const std::filesystem::path& file, std::string_view sql)
+    : database_(database), file_(file) {
+  sqlite3_stmt* made = nullptr;
+  check(sqlite3_prepare_v2(database, sql.data(), static_cast<int>(sql.size()), &made, nullptr));
+  statement_.reset(made);
+}
+
+void Statement::check(int code) const {
+  if (code != SQLITE_OK) {
+    fail(database_, code, file_);
+  }
+}
+
+Statement& Statement::bind(int parameter, std::int64_t value) {
+  check(sqlite3_bind_int64(statement_.get(), parameter, value));
+  return *this;
+}
+
+Statement& Statement::bind(int parameter, std::string_view text) {
+  check(sqlite3_bind_text(statement_.get(), parameter, text.data(), static_cast<int>(text.size()),
+                          SQLITE_STATIC));
+  return *this;
+}
+
+Statement& Statement::bind(int parameter, std::span<const std::byte> bytes) {
+  check(
+      sqlite3_bind_blob64(statement_.get(), parameter, bytes.data(), bytes.size(), SQLITE_STATIC));
+  return *this;
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  if (code != SQLITE_ROW && code != SQLITE_DONE) {
+    fail(database_, code, file_);
+  }
+  return code == SQLITE_ROW;
+}
+
+void Statement::run() {
+  while (step()) {}
+  check(sqlite3_reset(statement_.get()));
+}
+
+std::int64_t Statement::number(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+std::string Statement::text(int column) const {
+  const auto* const text = sqlite3_column_text(statement_.get(), column);
+  const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
+  return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text), size);
+}
+
+std::span<const std::byte> Statement::bytes(int column) const {
+  const auto* const blob = sqlite3_column_blob(statement_.get(), column);
+  return {static_cast<const std::byte*>(blob),
+          static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
+  if (mode == Mode::make && std::filesystem::exists(file)) {
+    throw Error(fmt::format("'{}' is there already; choose another name", file.string()));
+  }
+  sqlite3* made = nullptr;
+  // A file that nobody may write to is opened for reading alone.
+  const int code = sqlite3_open_v2(
+      file.c_str(), &made, SQLITE_OPEN_READWRITE | (mode == Mode::make ? SQLITE_OPEN_CREATE : 0),
+      nullptr);
+  database_.reset(made);
+  if (code != SQLITE_OK) {
+    fail(made, code, file);
+  }
+  constexpr int kPatience_ms = 2000;
+  sqlite3_busy_timeout(made, kPatience_ms);
+}
+
+void Database::run(std::string_view sql) { prepare(sql).run(); }
+
+std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(database_.get()); }
+
+}  // namespace adstar::bag

@@ -1,0 +1,110 @@
+#include "service/report/aem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "service/report/numbers.hpp"
+
+namespace adstar::report {
+namespace {
+
+std::string when(const AemHeader& header, std::int64_t time_ns) {
+  const auto text = scene::utc_text(header.epoch, time_ns);
+  if (!text) {
+    throw std::invalid_argument(fmt::format(
+        "{} s after the epoch is beyond the calendar; give another epoch", seconds_text(time_ns)));
+  }
+  return *text;
+}
+
+void require_finite(const AttitudePoint& point) {
+  const auto finite = [](double v) { return std::isfinite(v); };
+  if (!std::all_of(point.q_IB.begin(), point.q_IB.end(), finite) ||
+      !std::all_of(point.omega_B_rad_s.begin(), point.omega_B_rad_s.end(), finite)) {
+    throw std::invalid_argument(fmt::format(
+        "the attitude at {} s is not finite, and an AEM knows no such number; export csv instead",
+        seconds_text(point.time_ns)));
+  }
+}
+
+/// Table 4-4, QUATERNION/ANGVEL: EPOCH Q1 Q2 Q3 QC ANGVEL_X ANGVEL_Y ANGVEL_Z; 4.2.4.6: deg/s.
+void append_line(std::string& text, const AemHeader& header, const AttitudePoint& point) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const auto& [w, x, y, z] = point.q_IB;
+  text += when(header, point.time_ns);
+  for (const double q : {x, y, z, w}) {
+    text += ' ' + aem_number(q);
+  }
+  for (const double rate : point.omega_B_rad_s) {
+    text += ' ' + aem_number(rate * kDegrees);
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+std::string aem_number(double value) {
+  constexpr int kDecimals = 15;
+  return fmt::format("{:.{}E}", value == 0 ? 0.0 : value, kDecimals);  // 6.8.5: there is no -0
+}
+
+std::string aem_name(const std::string& text) {
+  std::string name = text;
+  const bool lower =
+      std::none_of(name.begin(), name.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+  for (char& c : name) {
+    if (c < ' ' || c > '~') {
+      c = '?';
+    } else if (!lower && c >= 'a' && c <= 'z') {
+      c = static_cast<char>(c - 'a' + 'A');
+    }
+  }
+  return name;
+}
+
+std::string aem_text(const AemHeader& header, const std::vector<AttitudePoint>& points) {
+  if (points.empty()) {
+    throw std::invalid_argument("there is no attitude to write");
+  }
+  const auto unordered = std::adjacent_find(
+      points.begin(), points.end(), [](const AttitudePoint& earlier, const AttitudePoint& later) {
+        return later.time_ns <= earlier.time_ns;
+      });
+  if (unordered != points.end()) {
+    throw std::invalid_argument(
+        fmt::format("time does not rise after {} s", seconds_text(unordered->time_ns)));
+  }
+  // Tables 4-2 and 4-3, in their order.
+  std::string text = fmt::format(
+      "CCSDS_AEM_VERS = 2.0\n"
+      "CREATION_DATE = {}\n"
+      "ORIGINATOR = {}\n"
+      "\n"
+      "META_START\n"
+      "OBJECT_NAME = {}\n"
+      "OBJECT_ID = {}\n"
+      "REF_FRAME_A = {}\n"
+      "REF_FRAME_B = {}\n"
+      "TIME_SYSTEM = UTC\n"
+      "START_TIME = {}\n"
+      "STOP_TIME = {}\n"
+      "ATTITUDE_TYPE = QUATERNION/ANGVEL\n"
+      "ANGVEL_FRAME = {}\n"
+      "META_STOP\n"
+      "\n"
+      "DATA_START\n",
+      header.creation_utc, aem_name(header.originator), aem_name(header.object_name),
+      aem_name(header.object_id), header.inertial_frame, header.body_frame,
+      when(header, points.front().time_ns), when(header, points.back().time_ns), header.body_frame);
+  for (const AttitudePoint& point : points) {
+    require_finite(point);
+    append_line(text, header, point);
+  }
+  return text + "DATA_STOP\n";
+}
+
+}  // namespace adstar::report

@@ -1,0 +1,272 @@
+// Recordings on disk: what is written is what is read, whatever file it is in, and nothing is lost in silence.
+
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include "service/bag/recorder.hpp"
+#include "service/bag/recording.hpp"
+#include "service/bag/size.hpp"
+#include "service/bag/sqlite.hpp"
+
+namespace adstar::bag {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+class Bags : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "adstar-bag-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    home_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(home_); }
+
+  RollingWriter writer(const Rolling& rolling = {}) const {
+    return {home_ / "bag", kTopics, rolling};
+  }
+  std::string text_of(const std::string& name) const {
+    std::ifstream file(home_ / "bag" / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  static std::vector<std::byte> bytes(std::size_t count, int first) {
+    std::vector<std::byte> block(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      block[i] = static_cast<std::byte>(static_cast<std::size_t>(first) + i);
+    }
+    return block;
+  }
+
+  struct Read {
+    std::string topic;
+    std::int64_t received_ns;
+    std::vector<std::byte> payload;
+  };
+  std::vector<Read> read(const std::vector<std::string>& topics = {"/a", "/b"}) const {
+    std::vector<Read> all;
+    Recording(home_ / "bag").for_each(topics, [&](const Message& m) {
+      all.push_back({m.topic, m.received_ns, {m.payload.begin(), m.payload.end()}});
+    });
+    return all;
+  }
+
+  const std::vector<TopicInfo> kTopics{{"/a", "adstar/msg/A", "- history: 1\n  depth: 2"},
+                                       {"/b", "adstar/msg/B", ""}};
+  fs::path home_;
+};
+
+TEST_F(Bags, what_was_written_is_read_in_its_order_over_all_files) {
+  RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 3 * kSecond});
+  for (int i = 0; i < 25; ++i) {
+    bag.add(static_cast<std::size_t>(i % 2), i * kSecond, bytes(10, i));
+  }
+  EXPECT_EQ(bag.finish().files.size(), 9U);
+  const auto all = read();
+  ASSERT_EQ(all.size(), 25U);
+  for (int i = 0; i < 25; ++i) {
+    const Read& m = all[static_cast<std::size_t>(i)];
+    EXPECT_EQ(m.topic, i % 2 == 0 ? "/a" : "/b");
+    EXPECT_EQ(m.received_ns, i * kSecond);
+    EXPECT_EQ(m.payload, bytes(10, i));
+  }
+  EXPECT_EQ(read({"/b"}).size(), 12U);
+  EXPECT_TRUE(read({"/never"}).empty());
+}
+
+TEST_F(Bags, a_file_spans_no_longer_than_it_may) {
+  RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 3 * kSecond});
+  for (int i = 0; i < 7; ++i) {
+    bag.add(0, i * kSecond, bytes(1, i));
+  }
+  const Metadata& metadata = bag.finish();
+  ASSERT_EQ(metadata.files.size(), 3U);
+  EXPECT_EQ(metadata.files[0].name, "bag_0.db3");
+  EXPECT_EQ(metadata.files[1].name, "bag_1.db3");
+  EXPECT_EQ(metadata.files[1].first_ns, 3 * kSecond);
+  EXPECT_EQ(metadata.files[1].last_ns, 5 * kSecond);
+  EXPECT_EQ(metadata.files[2].messages, 1U);
+}
+
+TEST_F(Bags, a_file_grows_little_beyond_the_size_it_may_have) {
+  constexpr std::uint64_t kMost = 200'000;
+  RollingWriter bag = writer({.max_bytes = kMost, .max_duration_ns = {}});
+  for (int i = 0; i < 2000; ++i) {
+    bag.add(0, i, bytes(500, i));
+  }
+  const Metadata metadata = bag.finish();
+  EXPECT_GT(metadata.files.size(), 4U);
+  for (const FileInfo& file : metadata.files) {
+    const auto size = fs::file_size(home_ / "bag" / file.name);
+    EXPECT_LT(size, kMost + 20'000);
+    if (file.name != metadata.files.back().name) {
+      EXPECT_GE(size, kMost) << file.name;
+    }
+    EXPECT_FALSE(fs::exists(home_ / "bag" / (file.name + "-wal")));
+  }
+  EXPECT_EQ(read().size(), 2000U);
+}
+
+TEST_F(Bags, metadata_is_spelt_as_rosbag2_reads_it) {
+  RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 2 * kSecond});
+  bag.add(0, 10 * kSecond, bytes(4, 0));
+  bag.add(1, 11 * kSecond, bytes(4, 0));
+  bag.add(0, 12 * kSecond, bytes(4, 0));
+  bag.finish();
+  EXPECT_EQ(text_of("metadata.yaml"), R"(rosbag2_bagfile_information:
+  version: 5
+  storage_identifier: sqlite3
+  duration:
+    nanoseconds: 2000000000
+  starting_time:
+    nanoseconds_since_epoch: 10000000000
+  message_count: 3
+  topics_with_message_count:
+    - topic_metadata:
+        name: /a
+        type: adstar/msg/A
+        serialization_format: cdr
+        offered_qos_profiles: "- history: 1\n  depth: 2"
+      message_count: 2
+    - topic_metadata:
+        name: /b
+        type: adstar/msg/B
+        serialization_format: cdr
+        offered_qos_profiles: ""
+      message_count: 1
+  compression_format: ""
+  compression_mode: ""
+  relative_file_paths:
+    - "bag_0.db3"
+    - "bag_1.db3"
+  files:
+    - path: "bag_0.db3"
+      starting_time:
+        nanoseconds_since_epoch: 10000000000
+      duration:
+        nanoseconds: 1000000000
+      message_count: 2
+    - path: "bag_1.db3"
+      starting_time:
+        nanoseconds_since_epoch: 12000000000
+      duration:
+        nanoseconds: 0
+      message_count: 1
+)");
+}
+
+TEST_F(Bags, lost_metadata_is_made_anew_from_the_files_to_the_letter) {
+  RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 4 * kSecond});
+  for (int i = 0; i < 11; ++i) {
+    bag.add(static_cast<std::size_t>(i % 3 == 0), i * kSecond, bytes(20, i));
+  }
+  bag.finish();
+  const std::string before = text_of("metadata.yaml");
+  EXPECT_FALSE(Recording(home_ / "bag").was_unfinished());
+  fs::remove(home_ / "bag" / "metadata.yaml");
+  const Recording recording(home_ / "bag");
+  EXPECT_TRUE(recording.was_unfinished());
+  EXPECT_TRUE(recording.mend());
+  EXPECT_EQ(text_of("metadata.yaml"), before);
+}
+
+TEST_F(Bags, metadata_older_than_a_file_that_nobody_ended_is_made_anew) {
+  fs::create_directory(home_ / "bag");
+  FileWriter file(home_ / "bag" / "bag_0.db3", kTopics);
+  file.add(0, 1, bytes(3, 1));
+  file.commit();
+  EXPECT_TRUE(Recording(home_ / "bag").mend());
+  file.add(0, 2, bytes(3, 2));
+  file.commit();
+  const Recording recording(home_ / "bag");
+  EXPECT_TRUE(recording.was_unfinished());
+  EXPECT_TRUE(recording.mend());
+  EXPECT_NE(text_of("metadata.yaml").find("  message_count: 2"), std::string::npos);
+}
+
+TEST_F(Bags, an_empty_recording_is_one) {
+  writer().finish();
+  EXPECT_TRUE(read().empty());
+  EXPECT_NE(text_of("metadata.yaml").find("message_count: 0"), std::string::npos);
+}
+
+TEST_F(Bags, what_was_committed_is_there_without_an_end) {
+  FileWriter file(home_ / "cut_0.db3", kTopics);
+  file.add(0, 1, bytes(3, 1));
+  file.commit();
+  file.add(0, 2, bytes(3, 2));  // and nobody commits it
+  std::size_t seen = 0;
+  Recording(home_).for_each({"/a"}, [&](const Message& m) {
+    ++seen;
+    EXPECT_EQ(m.received_ns, 1);
+  });
+  EXPECT_EQ(seen, 1U);
+}
+
+TEST_F(Bags, a_file_that_was_only_begun_is_passed_over) {
+  RollingWriter bag = writer();
+  bag.add(0, 1, bytes(3, 1));
+  bag.finish();
+  std::ofstream(home_ / "bag" / "bag_1.db3").flush();
+  EXPECT_EQ(read().size(), 1U);
+}
+
+TEST_F(Bags, nothing_is_written_over_and_nothing_else_is_taken_for_a_recording) {
+  writer().finish();
+  EXPECT_THROW(writer(), Error);
+  EXPECT_THROW(Recording(home_ / "nowhere"), Error);
+  fs::create_directory(home_ / "empty");
+  EXPECT_THROW(Recording(home_ / "empty"), Error);
+  std::ofstream(home_ / "empty" / "x_0.db3") << "this is no database, whatever its name says of it";
+  EXPECT_THROW(Recording(home_ / "empty").for_each({"/a"}, [](const Message&) {}), Error);
+}
+
+TEST(Intake, counts_what_does_not_fit_and_gives_out_the_rest) {
+  Intake intake(2, 25);
+  const std::vector<std::byte> ten(10);
+  EXPECT_TRUE(intake.offer(0, 1, ten));
+  EXPECT_TRUE(intake.offer(1, 2, ten));
+  EXPECT_FALSE(intake.offer(1, 3, ten));
+  EXPECT_EQ(intake.lost(), (std::vector<std::uint64_t>{0, 1}));
+  Batch batch;
+  ASSERT_TRUE(intake.swap_in(batch, 0ms));
+  ASSERT_EQ(batch.entries.size(), 2U);
+  EXPECT_EQ(batch.entries[1].received_ns, 2);
+  EXPECT_EQ(batch.payload(batch.entries[1]).size(), 10U);
+  EXPECT_TRUE(intake.offer(1, 4, ten)) << "there is room again";
+  intake.close();
+  EXPECT_FALSE(intake.offer(1, 5, ten));
+  EXPECT_TRUE(intake.swap_in(batch, 0ms)) << "what waited is still given out";
+  EXPECT_FALSE(intake.swap_in(batch, 0ms));
+}
+
+TEST_F(Bags, every_sample_offered_is_recorded_or_counted_as_lost) {
+  constexpr std::uint64_t kOffered = 20'000;
+  Recorder recorder(writer(), kTopics.size(), 4'000);
+  const auto payload = bytes(40, 0);
+  for (std::uint64_t i = 0; i < kOffered; ++i) {
+    recorder.offer(1, static_cast<std::int64_t>(i), payload);
+  }
+  const std::uint64_t recorded = recorder.finish().messages();
+  EXPECT_EQ(recorded + recorder.lost()[1], kOffered);
+  EXPECT_EQ(recorder.lost()[0], 0U);
+  EXPECT_EQ(read().size(), recorded);
+}
+
+TEST(Size, is_read_as_people_write_it) {
+  EXPECT_EQ(parse_size("100MB"), 100'000'000U);
+  EXPECT_EQ(parse_size("1.5 GiB"), 1'610'612'736U);
+  EXPECT_EQ(parse_size("86016B"), 86'016U);
+  for (const char* wrong : {"", "100", "MB", "-1MB", "1e3MB", "1 mb", "nanMB", "1e30GB"}) {
+    EXPECT_FALSE(parse_size(wrong)) << wrong;
+  }
+  EXPECT_EQ(format_size(3'200'000), "3.2 MB");
+}
+
+}  // namespace
+}  // namespace adstar::bag
