@@ -117,7 +117,7 @@ TEST(Frame, says_null_of_what_was_not_heard) {
 
 TEST(Frame, finds_a_member_of_a_fleet_and_turns_its_momentum_into_the_body) {
   const Json frame = frame_of(with_fleet(), "cube1");
-  EXPECT_EQ(frame["spacecraft"]["H_B_n_m_s"], Json({1.0, -2.0, -3.0}));
+  EXPECT_EQ(frame["spacecraft"]["Pi_B_n_m_s"], Json({1.0, -2.0, -3.0}));
   EXPECT_EQ(frame["actuators"], Json({"body"}));
 }
 

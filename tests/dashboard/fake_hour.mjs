@@ -18,7 +18,7 @@ export function frameAt(i) {
       q_IB: [Math.cos(half), 0, 0, Math.sin(half)],
       omega_B_rad_s: [0.5 * wave(7, 0), 0.8 * wave(7, 1), 0.1 * wave(3, 2)],
       H_I_n_m_s: [0.4165, 0.9072, 0.0577],
-      H_B_n_m_s: [wave(7, 0), wave(7, 1), wave(3, 2)],
+      Pi_B_n_m_s: [wave(7, 0), wave(7, 1), wave(3, 2)],
       momentum_residual_I_n_m_s: [1e-17 * wave(100, 0), 1e-17, 0],
       energy_j: 0.47, work_j: 0, energy_residual_j: 1e-16 * wave(300, 0), flags: 0,
     },

@@ -63,7 +63,7 @@ void Board::learn(const adstar_MomentumState& sample, Clock::time_point now) {
     motion->step = sample.step;
     motion->time_ns = sample.time_ns;
     motion->H_I = vector_of(sample.momentum_inertial_n_m_s);
-    motion->H_B = vector_of(sample.momentum_body_n_m_s);
+    motion->Pi_B = vector_of(sample.momentum_body_n_m_s);
     motion->momentum_residual_I = vector_of(sample.momentum_residual_inertial_n_m_s);
     motion->energy_j = sample.rotational_energy_j;
     motion->work_j = sample.work_j;
@@ -205,11 +205,11 @@ std::optional<Motion> Board::motion_of(std::string_view service, std::uint32_t i
     motion.q_IB = quaternion_of(member.attitude_body_to_inertial);
     motion.omega_B = vector_of(member.angular_velocity_body_rad_s);
     motion.H_I = vector_of(member.momentum_inertial_n_m_s);
-    // H_B = R_IBᵀ H_I, as the daemon itself computes it.
+    // Pi_B = R_IBᵀ H_I, as the daemon itself computes it.
     const auto& [w, x, y, z] = motion.q_IB;
-    const Vec3<double> H_B = rotate_inverse(
+    const Vec3<double> Pi_B = rotate_inverse(
         Quat<double>{w, x, y, z}, Vec3<double>{motion.H_I[0], motion.H_I[1], motion.H_I[2]});
-    motion.H_B = {H_B.x, H_B.y, H_B.z};
+    motion.Pi_B = {Pi_B.x, Pi_B.y, Pi_B.z};
     motion.energy_j = member.rotational_energy_j;
     motion.energy_residual_j = member.energy_residual_j;
     motion.flags = member.flags;

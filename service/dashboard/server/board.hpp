@@ -35,7 +35,7 @@ struct Motion {
   std::array<double, 4> q_IB{kUnknown, kUnknown, kUnknown, kUnknown};
   Vector omega_B = kUnknownVector;
   Vector H_I = kUnknownVector;
-  Vector H_B = kUnknownVector;
+  Vector Pi_B = kUnknownVector;
   Vector momentum_residual_I = kUnknownVector;
   double energy_j = kUnknown;
   double work_j = kUnknown;

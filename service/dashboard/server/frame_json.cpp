@@ -41,7 +41,7 @@ Json motion_json(std::string_view name, const Motion& motion, Clock::time_point 
           {"q_IB", motion.q_IB},
           {"omega_B_rad_s", motion.omega_B},
           {"H_I_n_m_s", motion.H_I},
-          {"H_B_n_m_s", motion.H_B},
+          {"Pi_B_n_m_s", motion.Pi_B},
           {"momentum_residual_I_n_m_s", motion.momentum_residual_I},
           {"energy_j", motion.energy_j},
           {"work_j", motion.work_j},

@@ -12,7 +12,7 @@ export interface Motion {
   q_IB: [Number, Number, Number, Number]; // w first, body to inertial
   omega_B_rad_s: Triple;
   H_I_n_m_s: Triple;
-  H_B_n_m_s: Triple;
+  Pi_B_n_m_s: Triple;
   momentum_residual_I_n_m_s: Triple;
   energy_j: Number;
   work_j: Number;

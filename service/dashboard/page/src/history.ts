@@ -3,7 +3,7 @@
 import { length, type Motion } from "./frame";
 
 export const kColumns = [
-  "t", "H_I_x", "H_I_y", "H_I_z", "H_B_x", "H_B_y", "H_B_z",
+  "t", "H_I_x", "H_I_y", "H_I_z", "Pi_B_x", "Pi_B_y", "Pi_B_z",
   "omega_x", "omega_y", "omega_z", "energy_residual", "momentum_residual",
 ] as const; // prettier-ignore
 export type ColumnName = (typeof kColumns)[number];
@@ -35,7 +35,7 @@ export class History {
     put("t", motion.time_s);
     (["x", "y", "z"] as const).forEach((axis, i) => {
       put(`H_I_${axis}`, motion.H_I_n_m_s[i]!);
-      put(`H_B_${axis}`, motion.H_B_n_m_s[i]!);
+      put(`Pi_B_${axis}`, motion.Pi_B_n_m_s[i]!);
       put(`omega_${axis}`, motion.omega_B_rad_s[i]!);
     });
     put("energy_residual", motion.energy_residual_j);

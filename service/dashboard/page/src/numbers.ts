@@ -6,7 +6,7 @@ import type { Motion, Triple } from "./frame";
 
 const kRows: [string, (motion: Motion) => Triple][] = [
   ["H_I [N m s]", (motion) => motion.H_I_n_m_s],
-  ["H_B [N m s]", (motion) => motion.H_B_n_m_s],
+  ["Pi_B [N m s]", (motion) => motion.Pi_B_n_m_s],
   ["omega_B [rad/s]", (motion) => motion.omega_B_rad_s],
 ];
 

@@ -14,7 +14,7 @@ interface Plot {
   exponent?: boolean;
 }
 
-const axes = (stem: "H_I" | "H_B" | "omega"): Plot["series"] =>
+const axes = (stem: "H_I" | "Pi_B" | "omega"): Plot["series"] =>
   (["x", "y", "z"] as const).map((axis) => ({
     column: `${stem}_${axis}`,
     label: axis,
@@ -28,7 +28,7 @@ const one = (column: ColumnName, label: string): Plot["series"] => [
 
 const kPlots: Plot[] = [
   { title: "H_I, inertial [N m s]", series: axes("H_I") },
-  { title: "H_B, body [N m s]", series: axes("H_B") },
+  { title: "Pi_B, body [N m s]", series: axes("Pi_B") },
   { title: "omega_B [rad/s]", series: axes("omega") },
   {
     title: "energy residual E − E_0 − W [J]",
