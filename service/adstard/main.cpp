@@ -21,6 +21,7 @@
 #include "service/adstard/options.hpp"
 #include "service/adstard/scene_text.hpp"
 #include "service/adstard/standby_watch.hpp"
+#include "service/adstard/supervisor.hpp"
 #include "service/log.hpp"
 #include "service/report/scene_report.hpp"
 #include "service/run/checkpoint.hpp"
@@ -193,6 +194,9 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
     return code;
   }
   log_start(scene);
+  Supervisor supervisor;
+  supervisor.ready(
+      fmt::format("'{}' flies {} spacecraft", scene.service.name, scene.spacecraft.size()));
   BridgeCare care(bridge, segment, clock_ns(CLOCK_MONOTONIC));
   if (options.standby) {
     const auto state = await_state(care, bridge, segment, housekeeping, plan, signals);
@@ -241,12 +245,14 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
       stop.store(true);
     }
     const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
+    supervisor.look(tick.report().turns.load(std::memory_order_relaxed), now);
     care.look(now);
     if (now >= next_look) {
       housekeeping.look(bridge.restarts(), keeping->newest_hash(), false);
       next_look = now + kLookPeriod;
     }
   }
+  supervisor.stopping();
   housekeeping.thread_is_done();
   dismissed.store(true);
   dismissed.notify_one();

@@ -50,6 +50,7 @@ std::optional<std::int64_t> Tick::follow(const std::atomic<bool>& stop) noexcept
   StandbyLink& link = segment_->standby;
   StandbyBeatRecord primary;
   while (!stop.load(std::memory_order_relaxed) && step() < last_step_) {
+    add(report_.turns, 1);
     const std::uint32_t seen = segment_->push_count.load(std::memory_order_seq_cst);
     // Read before the rings: the bridge asks for it only after its last push.
     const bool gone = link.take_over.load(std::memory_order_acquire) != 0;

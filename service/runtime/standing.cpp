@@ -28,6 +28,7 @@ void Tick::stand(const std::atomic<bool>& stop) noexcept {
   const bool waits = pace_ == scene::Pace::lockstep && !halted();
   report_.waiting.store(waits ? 1 : 0, std::memory_order_relaxed);
   while (!stop.load(std::memory_order_relaxed) && stands()) {
+    add(report_.turns, 1);
     const std::uint32_t seen = segment_->push_count.load(std::memory_order_seq_cst);
     const std::int64_t begun = monotonic_ns();
     take_commands(now(), begun);

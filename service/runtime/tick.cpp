@@ -67,6 +67,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
   std::int64_t ended = followed ? make_up(clock, stop) : due_ns(clock, step());
   report_.asked_ns.store(ended, std::memory_order_relaxed);
   while (!stop.load(std::memory_order_relaxed) && (halted() || step() < last_step_)) {
+    add(report_.turns, 1);
     if (stands()) {
       stand(stop);
       ended = monotonic_ns();

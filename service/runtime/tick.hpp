@@ -55,8 +55,9 @@ struct TickReport {
   std::atomic<std::uint32_t> paused{0};     ///< 1 while RunControl holds the clock
   std::atomic<std::uint32_t> waiting{0};    ///< 1 while the clock stands for want of a StepRequest
   std::atomic<std::int64_t> asked_ns{
-      0};                             ///< monotonic time of the last StepRequest, or of the start
-  std::atomic<std::uint64_t> run{0};  ///< rises with each reset
+      0};                               ///< monotonic time of the last StepRequest, or of the start
+  std::atomic<std::uint64_t> run{0};    ///< rises with each reset
+  std::atomic<std::uint64_t> turns{0};  ///< of the tick's loop: while it rises the tick is alive
 
   const Histogram& phase(Phase which) const noexcept {
     return phases[static_cast<std::size_t>(which)];
