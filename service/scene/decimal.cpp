@@ -1,6 +1,7 @@
 #include "service/scene/decimal.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -104,6 +105,16 @@ std::optional<std::int64_t> exact_ns(std::string_view text, const TimeUnit& unit
   }
   const auto ns = static_cast<std::int64_t>(value);
   return decimal->negative ? -ns : ns;
+}
+
+std::optional<double> finite_number(std::string_view text) {
+  text.remove_prefix(text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
 }
 
 }  // namespace adstar::scene

@@ -20,4 +20,7 @@ inline constexpr TimeUnit kSecond{"s", 1, 9};
 /// when it is no number, not a whole count of nanoseconds, or beyond 64 bits.
 std::optional<std::int64_t> exact_ns(std::string_view decimal, const TimeUnit& unit);
 
+/// The whole text as a finite number, with a plus sign or without.
+std::optional<double> finite_number(std::string_view text);
+
 }  // namespace adstar::scene

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
+#include "service/scene/decimal.hpp"
 #include "service/scene/files.hpp"
 
 namespace adstar::scene {
@@ -27,14 +26,6 @@ std::string_view take_word(std::string_view& text) {
   const std::string_view word = text.substr(0, end);
   text.remove_prefix(end);
   return word;
-}
-
-std::optional<double> number_of(std::string_view text) {
-  text.remove_prefix(text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::optional<Clock> clock_of(std::string_view system) {
@@ -130,7 +121,7 @@ class OemReader {
       }
       table_.method = value == "LAGRANGE" ? EphemerisMethod::lagrange : EphemerisMethod::hermite;
     } else if (key == "INTERPOLATION_DEGREE") {
-      const auto degree = number_of(value);
+      const auto degree = finite_number(value);
       const bool good = degree && *degree >= 1 && *degree <= Ephemeris<double>::kMostDegree;
       if (!good) {
         complain(key, in_quotes(value), "a degree from 1 to 15", "INTERPOLATION_DEGREE = 7");
@@ -150,7 +141,7 @@ class OemReader {
     std::array<double, 6> numbers{};
     for (double& number : numbers) {
       const std::string_view word = take_word(line);
-      const auto value = number_of(word);
+      const auto value = finite_number(word);
       if (!value) {
         complain("row", word.empty() ? "too few numbers" : in_quotes(word),
                  "an epoch, three numbers in km and three in km/s",

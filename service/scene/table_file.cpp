@@ -1,8 +1,6 @@
 #include "service/scene/table_file.hpp"
 
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include "service/scene/decimal.hpp"
 #include "service/scene/files.hpp"
@@ -43,16 +41,6 @@ std::size_t split(std::string_view line, std::array<Field, 4>& fields) {
     }
     begin = end + 1;
   }
-}
-
-std::optional<double> parse_number(std::string_view text) {
-  text.remove_prefix(text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
 }
 
 class TableReader {
@@ -115,7 +103,7 @@ class TableReader {
     std::array<std::optional<double>, 3> torque;
     for (std::size_t i = 0; i < 3; ++i) {
       const Field& field = fields[i + 1];
-      torque[i] = parse_number(field.text);
+      torque[i] = finite_number(field.text);
       if (!torque[i]) {
         complain(field.column, kColumns[i + 1], in_quotes(field.text), "a finite number in N m",
                  "0.0");
@@ -153,7 +141,7 @@ class TableReader {
     constexpr std::size_t kDecimals = 9;
     if (point != std::string_view::npos && text.size() > point + 1 + kDecimals) {
       const std::string_view cut = text.substr(0, point + 1 + kDecimals);
-      if (parse_number(text) && exact_ns(cut, kSecond)) {
+      if (finite_number(text) && exact_ns(cut, kSecond)) {
         return std::string(cut);
       }
     }
