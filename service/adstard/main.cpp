@@ -128,8 +128,8 @@ int await_bridge(BridgeProcess& bridge, const runtime::SharedSegment& segment,
 /// first.
 std::optional<run::Checkpoint> await_state(BridgeCare& care, const BridgeProcess& bridge,
                                            const runtime::MappedSegment& segment,
-                                           Housekeeping& housekeeping, const Plan& plan,
-                                           const sigset_t& signals) {
+                                           Housekeeping& housekeeping, Supervisor& supervisor,
+                                           const Plan& plan, const sigset_t& signals) {
   spdlog::info("a standby of '{}': waits for its primary", plan.scene.service.name);
   std::int64_t next_look = 0;
   while (segment->standby.state_received.load() == 0) {
@@ -137,6 +137,7 @@ std::optional<run::Checkpoint> await_state(BridgeCare& care, const BridgeProcess
       return std::nullopt;
     }
     const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
+    supervisor.look(now);
     care.look(now);
     if (now >= next_look) {
       housekeeping.look(bridge.restarts(), {}, false);
@@ -194,12 +195,14 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
     return code;
   }
   log_start(scene);
-  Supervisor supervisor;
+  Supervisor supervisor(scene.simulation.pace == scene::Pace::clock
+                            ? scene::beat_ns(scene.simulation)
+                            : std::int64_t{0});
   supervisor.ready(
       fmt::format("'{}' flies {} spacecraft", scene.service.name, scene.spacecraft.size()));
   BridgeCare care(bridge, segment, clock_ns(CLOCK_MONOTONIC));
   if (options.standby) {
-    const auto state = await_state(care, bridge, segment, housekeeping, plan, signals);
+    const auto state = await_state(care, bridge, segment, housekeeping, supervisor, plan, signals);
     if (!state) {
       segment->stop_requested.store(1);
       bridge.finish(kBridgePatienceMs);

@@ -18,7 +18,7 @@ std::int64_t number_in(const char* variable) {
 
 }  // namespace
 
-Supervisor::Supervisor() {
+Supervisor::Supervisor(std::int64_t longest_turn_ns) : longest_turn_ns_(longest_turn_ns) {
   const char* const path = std::getenv("NOTIFY_SOCKET");
   if (path == nullptr || (path[0] != '/' && path[0] != '@') ||
       std::strlen(path) >= sizeof(sockaddr_un::sun_path)) {
@@ -47,8 +47,12 @@ void Supervisor::ready(std::string_view status) { send("READY=1\nSTATUS=" + std:
 void Supervisor::stopping() { send("STOPPING=1"); }
 
 void Supervisor::look(std::uint64_t turns, std::int64_t now_ns) {
-  if (feed_every_ns_ > 0 && turns != turns_ && now_ns >= next_feed_ns_) {
+  if (turns != turns_) {
     turns_ = turns;
+    turned_ns_ = now_ns;
+  }
+  const bool alive = now_ns - turned_ns_ <= longest_turn_ns_ + feed_every_ns_;
+  if (feed_every_ns_ > 0 && alive && now_ns >= next_feed_ns_) {
     next_feed_ns_ = now_ns + feed_every_ns_;
     send("WATCHDOG=1");
   }

@@ -10,8 +10,9 @@ namespace adstar::adstard {
 
 class Supervisor {
  public:
-  /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID.
-  Supervisor();
+  /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID. `longest_turn_ns`: what the tick may take for a turn of its
+  /// loop in good order, the sleep to the next beat in it.
+  explicit Supervisor(std::int64_t longest_turn_ns);
   ~Supervisor();
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
@@ -19,9 +20,11 @@ class Supervisor {
   void ready(std::string_view status);
   void stopping();
 
-  /// Every few milliseconds: `turns` of the tick's loop. Says that it lives when it does, twice within the watchdog's
-  /// time.
+  /// Every few milliseconds: `turns` of the tick's loop. Says that it lives twice within the watchdog's time, unless
+  /// it has not turned for that long and its longest turn.
   void look(std::uint64_t turns, std::int64_t now_ns);
+  /// The same where there is no tick yet.
+  void look(std::int64_t now_ns) { look(turns_ + 1, now_ns); }
 
  private:
   void send(std::string_view message);
@@ -30,7 +33,9 @@ class Supervisor {
   std::string address_;             ///< sun_path; an abstract one begins with '\0'
   std::int64_t feed_every_ns_ = 0;  ///< 0: nobody watches
   std::int64_t next_feed_ns_ = 0;
-  std::uint64_t turns_ = 0;  ///< at the last feed
+  std::int64_t longest_turn_ns_;
+  std::uint64_t turns_ = 0;
+  std::int64_t turned_ns_ = 0;  ///< when it was last seen to turn
 };
 
 }  // namespace adstar::adstard
