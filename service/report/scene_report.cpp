@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include <fmt/format.h>
@@ -80,6 +81,15 @@ SubstepCount count_with_wheels(const std::string& scheme, const RigidBody<double
   return count;
 }
 
+/// Of linked bodies the fastest at the start [rad/s]; what springs and dampers ask for beside it only a step knows.
+double fastest_rate(const scene::LinkedBodies& linked) {
+  double fastest = 0;
+  for (const auto& body : linked.bodies) {
+    fastest = std::max(fastest, norm(body.omega_B));
+  }
+  return fastest;
+}
+
 /// The largest turn in one step, from what the spacecraft have at the start.
 std::string turn_report(const scene::Scene& scene) {
   const StepLimits limits = limits_for(scene.simulation.scheme, scene.simulation.limits);
@@ -90,6 +100,18 @@ std::string turn_report(const scene::Scene& scene) {
   std::int64_t parts = 1;
   bool resolved = true;
   for (const scene::Spacecraft& craft : scene.spacecraft) {
+    if (craft.linked) {
+      const double turn = h * fastest_rate(*craft.linked);
+      if (turn > largest) {
+        largest = turn;
+        fastest = &craft;
+      }
+      const double wanted = std::ceil(turn / limits.substep_angle_rad);
+      resolved = resolved && wanted <= static_cast<double>(limits.substeps);
+      parts = std::max(
+          parts, static_cast<std::int64_t>(std::min(wanted, static_cast<double>(limits.substeps))));
+      continue;
+    }
     const std::vector<SpinningWheel<double>> wheels = scene::spinning_wheels(craft);
     const RigidBody<double> body = hub_of(RigidBody<double>(craft.inertia_body_kg_m2),
                                           std::span<const SpinningWheel<double>>(wheels));
@@ -230,7 +252,10 @@ std::string left_out(const scene::Scene& scene) {
 }  // namespace
 
 std::string scene_report(const scene::Scene& scene) {
-  return simulation_report(scene.simulation) + spacecraft_report(scene.spacecraft) +
+  const double end_of_run_s = scene.simulation.duration_ns
+                                  ? seconds<double>(*scene.simulation.duration_ns)
+                                  : std::numeric_limits<double>::max();
+  return simulation_report(scene.simulation) + spacecraft_report(scene.spacecraft, end_of_run_s) +
          turn_report(scene) + telemetry_report(scene) + dds_report(scene) + left_out(scene);
 }
 

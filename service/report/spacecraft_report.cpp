@@ -189,11 +189,23 @@ std::string text_of(const std::shared_ptr<const Ephemeris<double>>& o) {
                      short_number(o->rows.front().t_s), short_number(o->rows.back().t_s));
 }
 
-std::string orbit_line(const scene::Spacecraft& craft) {
+/// Outside its table the spacecraft stands still, which nobody asked for.
+std::string span_warning(const Orbit<double>& orbit, double end_of_run_s) {
+  const auto [begin, end] = span_s(orbit);
+  if (begin <= 0 && end_of_run_s <= end) {
+    return {};
+  }
+  return fmt::format(
+      "    WARNING   its orbit is known from {} s to {} s, and not over the whole run\n",
+      short_number(begin), short_number(end));
+}
+
+std::string orbit_line(const scene::Spacecraft& craft, double end_of_run_s) {
   std::string text;
   if (craft.orbit) {
     text = "    orbit     " +
-           std::visit([](const auto& orbit) { return text_of(orbit); }, *craft.orbit) + "\n";
+           std::visit([](const auto& orbit) { return text_of(orbit); }, *craft.orbit) + "\n" +
+           span_warning(*craft.orbit, end_of_run_s);
   }
   if (craft.target) {
     const Quat<double>& q = craft.target->attitude;
@@ -271,7 +283,9 @@ void add(Group& group, const scene::Spacecraft& craft) {
   }
   const std::vector<SpinningWheel<double>> wheels = scene::spinning_wheels(craft);
   const std::span<const SpinningWheel<double>> all(wheels);
-  group.rate.add(norm(angular_velocity(hub_of(body, all), all, body_momentum(craft.initial))));
+  group.rate.add(
+      craft.linked ? norm(craft.linked->bodies.front().omega_B)
+                   : norm(angular_velocity(hub_of(body, all), all, body_momentum(craft.initial))));
   group.momentum.add(norm(craft.initial.H_I.value()));
 }
 
@@ -292,12 +306,13 @@ std::string text_of(const Group& group) {
 
 }  // namespace
 
-std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft) {
+std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft,
+                              double end_of_run_s) {
   std::vector<Group> groups;
   std::map<std::string, std::size_t> by_torques;
   for (const scene::Spacecraft& craft : spacecraft) {
-    std::string torques =
-        orbit_line(craft) + torque_lines(craft) + wheel_lines(craft) + linked_lines(craft);
+    std::string torques = orbit_line(craft, end_of_run_s) + torque_lines(craft) +
+                          wheel_lines(craft) + linked_lines(craft);
     const auto [place, fresh] = by_torques.emplace(torques, groups.size());
     if (fresh) {
       groups.emplace_back();

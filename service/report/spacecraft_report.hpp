@@ -8,6 +8,7 @@
 
 namespace adstar::report {
 
-std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft);
+std::string spacecraft_report(const std::vector<scene::Spacecraft>& spacecraft,
+                              double end_of_run_s);
 
 }  // namespace adstar::report

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_text.hpp"
+#include "service/report/scene_report.hpp"
 #include "service/scene/time_scales.hpp"
 
 namespace adstar::scene {
@@ -192,6 +193,11 @@ TEST_F(Oem, gives_the_orbit_of_its_rows_between_them) {
     EXPECT_LT(norm(a.r_I - b.r_I), 1e-3) << t;
     EXPECT_LT(norm(a.v_I - b.v_I), 1e-4) << t;
   }
+  const std::string warning = "its orbit is known from 0 s to 1140 s, and not over the whole run";
+  EXPECT_NE(report::scene_report(read).find(warning), std::string::npos) << "endless";
+  write(text);
+  const Scene shorter = parse(scene(kEpoch + "duration = \"1140s\"\n"), directory_ / "scene.toml");
+  EXPECT_EQ(report::scene_report(shorter).find("WARNING   its orbit"), std::string::npos);
 }
 
 TEST_F(Oem, refuses_what_is_none_with_the_place) {
