@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "adstar/torques/thruster.hpp"
 #include "service/runtime/judge.hpp"
 
 namespace adstar::runtime {
@@ -171,12 +172,13 @@ void CommandGate::receive(const CommandRecord& command, const Beat& beat) noexce
   verdict.verdict = judgement.verdict;
   verdict.reason = judgement.reason;
   verdict.start_ns = judgement.start_ns;
-  verdict.end_ns = std::max(judgement.end_ns, judgement.start_ns + actuator.least_on_ns);
+  verdict.end_ns = judgement.end_ns;
   verdict.value = judgement.value;
   if (verdict.verdict == Verdict::refused || verdict.verdict == Verdict::expired) {
     conclude(*stream, verdict);
     return;
   }
+  verdict.end_ns = off_at({verdict.start_ns, verdict.end_ns}, actuator.least_on_ns);
   for (std::uint32_t entry = actuator.head; entry != kNone; entry = pool_[entry].next) {
     const VerdictRecord& other = pool_[entry].verdict;
     // What has ended stays listed until begin_step; it holds nothing.

@@ -52,6 +52,19 @@ TEST(SpaceActuators, a_thruster_stays_on_for_its_least_time_and_the_verdict_says
   EXPECT_FALSE(jet.is_on(17 * kMs));
 }
 
+TEST(SpaceActuators,
+     a_thruster_that_is_told_to_fire_at_the_end_of_time_or_never_is_answered_as_asked) {
+  GateHarness gate({test::in_space(test::make_craft(0))});
+  constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+  const auto last = gate.ask(command(1, Quantity::thrust, 1, kEnd - 10, kEnd - 5));
+  ASSERT_EQ(last.size(), 1U);
+  EXPECT_GE(last[0].end_ns, last[0].start_ns);
+  const auto never = gate.ask(command(1, Quantity::thrust, 1, 5, 1));
+  ASSERT_EQ(never.size(), 1U);
+  EXPECT_EQ(never[0].verdict, Verdict::refused);
+  EXPECT_EQ(never[0].end_ns, 1);
+}
+
 TEST(SpaceVehicle, a_reset_sets_the_coils_lag_back_too) {
   GateHarness gate({test::in_space(test::make_craft(0))});
   Fleet& fleet = gate.fleet();
