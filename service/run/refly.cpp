@@ -48,9 +48,8 @@ std::map<Instant, Checkpoint> whole_checkpoints(const RunDirectory& directory,
 std::map<Instant, std::uint64_t> digests_in(const std::vector<runtime::JournalRecord>& records) {
   std::map<Instant, std::uint64_t> digests;
   for (const runtime::JournalRecord& record : records) {
-    const auto block = runtime::payload_of<runtime::DigestBlock>(record);
-    const auto count = std::min<std::uint64_t>(block.count, runtime::DigestBlock::kMost);
-    for (std::uint64_t i = 0; i < count; ++i) {
+    const runtime::DigestBlock block = runtime::digests_of(record);
+    for (std::uint64_t i = 0; i < block.count; ++i) {
       digests[{record.note, record.step + i}] = block.digests[i];
     }
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "service/run/journal_file.hpp"
+#include "service/runtime/step_digests.hpp"
 
 namespace adstar::run {
 namespace {
@@ -72,6 +73,12 @@ std::uint64_t last_known_step(const RunRecords& records, const runtime::HotJourn
   }
   for (const JournalRecord& hash : records.hashes) {
     step = hash.note == at.resets ? std::max(step, hash.step) : step;
+  }
+  for (const JournalRecord& record : records.digests) {
+    const std::uint64_t count = runtime::digests_of(record).count;
+    if (record.note == at.resets && count > 0) {
+      step = std::max(step, record.step + count - 1);
+    }
   }
   return step;
 }

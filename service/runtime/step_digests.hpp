@@ -2,6 +2,7 @@
 // A digest of the fleet's state after every step, for `adstar replay` to find the first one that differs.
 // Opt-in ([run] hashes = "step"): the tick works it out and hands it over in blocks, beside the journal.
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -50,6 +51,13 @@ struct DigestBlock {
   std::uint64_t count = 0;
   std::array<std::uint64_t, kMost> digests{};
 };
+
+/// What a record of the journal carries; its count is never more than there are.
+inline DigestBlock digests_of(const JournalRecord& record) {
+  auto block = payload_of<DigestBlock>(record);
+  block.count = std::min<std::uint64_t>(block.count, DigestBlock::kMost);
+  return block;
+}
 
 /// The tick's: fills one block after the other. Without a journal it does nothing.
 class StepDigests {

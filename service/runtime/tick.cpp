@@ -56,6 +56,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
   if (followed) {
     const std::optional<std::int64_t> due = follow(stop);
     if (!due) {
+      digests_.flush();
       return;
     }
     first_due = *due;

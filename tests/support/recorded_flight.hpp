@@ -14,6 +14,7 @@
 #include "service/runtime/fleet_snapshot.hpp"
 #include "service/runtime/step_digests.hpp"
 #include "tests/support/gate_harness.hpp"
+#include "tests/support/linked_craft.hpp"
 #include "tests/support/random_motion.hpp"
 
 namespace adstar::test {
@@ -22,7 +23,7 @@ inline scene::Scene recorded_scene() {
   scene::Scene scene;
   scene.simulation.step_ns = 10 * kMs;
   scene.spacecraft = {make_craft(2, Frame::inertial), with_wheels(make_craft(1, Frame::body)),
-                      in_space(make_craft(0))};
+                      in_space(make_craft(0)), linked_craft()};
   return scene;
 }
 
@@ -40,7 +41,7 @@ inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
     runtime::CommandRecord command;
     command.commander = {seed, static_cast<std::uint64_t>(between(1, 3))};
     command.sequence = beat + 1 - static_cast<std::uint64_t>(between(0, 1));
-    command.spacecraft = static_cast<std::uint32_t>(between(0, 2));
+    command.spacecraft = static_cast<std::uint32_t>(between(0, 3));
     command.actuator = static_cast<std::uint32_t>(between(0, 1));
     const bool wheel = command.spacecraft == 1 && command.actuator == 1;
     command.priority = static_cast<std::int32_t>(between(0, 8) / 4);
@@ -56,6 +57,10 @@ inline std::vector<runtime::CommandRecord> commands_of_beat(std::uint64_t seed,
       const bool jet = command.actuator == 1;
       command.quantity = jet ? runtime::Quantity::thrust : runtime::Quantity::dipole;
       command.value = {jet ? 1.0 : 0.1 * static_cast<double>(between(-99, 99)), 0, 0};
+    }
+    if (command.spacecraft == 3) {
+      command.actuator = 0;
+      command.value = {0.1 * static_cast<double>(between(-9, 9)), 0, 0};
     }
     commands.push_back(command);
   }

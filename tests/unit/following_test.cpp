@@ -55,7 +55,10 @@ bool wait_for(Condition&& holds) {
 /// A tick on its own thread; in its destructor it is told to stop.
 class Running {
  public:
-  explicit Running(const scene::Scene& scene, bool standby = false) : tick(scene, segment) {
+  explicit Running(const scene::Scene& scene, bool standby = false,
+                   JournalWriter* journal = nullptr)
+      : tick(scene, segment) {
+    tick.record_in(journal);
     if (standby) {
       tick.stand_by();
     }
@@ -179,6 +182,23 @@ TEST(Following, a_standby_goes_no_further_than_its_primary_and_says_nothing) {
   standby.stop();
   EXPECT_EQ(standby.step(), 41u);
   EXPECT_TRUE(telemetry_of(standby.segment).empty());
+}
+
+TEST(Following, a_standby_that_is_ended_leaves_the_digests_of_all_its_steps) {
+  scene::Scene scene = pair_scene(0, 3);
+  scene.run.hashes_every_step = true;
+  const auto hot = std::make_unique<HotJournal>();
+  JournalWriter journal(*hot, 1);
+  Running standby(scene, true, &journal);
+  constexpr std::uint64_t kSteps = 2 * DigestBlock::kMost + 3;
+  standby.hear_beat(kSteps, 1);
+  ASSERT_TRUE(wait_for([&] { return standby.step() == kSteps; }));
+  standby.stop();
+  std::uint64_t digests = 0;
+  while (const auto record = hot->ring.pop()) {
+    digests += digests_of(*record).count;
+  }
+  EXPECT_EQ(digests, kSteps);
 }
 
 TEST(Following, no_beat_is_computed_before_the_commands_that_it_counts_on_are_here) {

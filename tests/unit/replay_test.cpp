@@ -141,6 +141,29 @@ TEST_F(KilledRun, flown_again_names_the_first_step_that_differs_where_every_step
   EXPECT_EQ(again.differs_at->step, 124U);
 }
 
+TEST_F(KilledRun, flown_again_tells_which_part_of_a_checkpoint_it_does_not_come_to) {
+  const auto parts_in = [&](const auto& change) {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+    {
+      RecordedFlight flight(8, path_, run_);
+      flight.run_to(50);
+      flight.log().move_records();
+      runtime::FleetState changed = flight.state();
+      change(changed);
+      flight.log().write_checkpoint(flight.at(), changed, true);
+    }
+    const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+    return refly(directory, test::recorded_scene(), 7, [](double) { return true; }).differs_in;
+  };
+  EXPECT_EQ(parts_in([](auto&) {}), "");
+  EXPECT_NE(parts_in([](auto& state) { state.vehicles[2].state.q_IB.w = 0.5; }).find("'sat'"),
+            std::string::npos);
+  EXPECT_EQ(parts_in([](auto& state) { state.wheel_momenta[0].carry = 1; }),
+            "the momentum of a wheel");
+  EXPECT_EQ(parts_in([](auto& state) { ++state.memory.back(); }), "what a model remembers");
+}
+
 TEST_F(KilledRun, killed_and_gone_on_with_the_digests_of_both_parts_are_compared) {
   {
     RecordedFlight flight(8, path_, run_);

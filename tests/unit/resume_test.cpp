@@ -144,6 +144,21 @@ TEST_F(KilledRun, without_its_memory_goes_on_from_what_the_disk_has) {
   expect_same(*flight, 2, 200);
 }
 
+TEST_F(KilledRun, without_its_memory_goes_on_from_the_last_step_that_left_a_digest_on_the_disk) {
+  std::optional<RecordedFlight> flight(std::in_place, 2, path_, run_);
+  flight->digest_every_step();
+  flight->run_to(100);
+  flight->checkpoint();
+  flight->run_to(100 + 3 * runtime::DigestBlock::kMost);
+  flight->end_digests();
+  flight->log().move_records();
+  flight->run_to(170);
+  flight.reset();
+  HotJournalFile::remove(run_);
+  flight.emplace(2, path_);
+  EXPECT_EQ(flight->step(), 100 + 3 * runtime::DigestBlock::kMost);
+}
+
 TEST_F(KilledRun, refuses_to_go_on_across_a_hole_in_the_journal_unless_told_to) {
   std::optional<RecordedFlight> flight(std::in_place, 2, path_, run_);
   flight->run_to(60);

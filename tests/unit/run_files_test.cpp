@@ -61,7 +61,13 @@ TEST(StateHash, sees_every_bit_and_the_step) {
   const std::uint64_t other = state_hash(1, state);
   EXPECT_NE(hash, other);
   state.wheel_momenta[2].carry = -0.0;
-  EXPECT_NE(other, state_hash(1, state));
+  const std::uint64_t third = state_hash(1, state);
+  EXPECT_NE(other, third);
+  state.memory = {0, 0, 0};
+  const std::uint64_t remembering = state_hash(1, state);
+  EXPECT_NE(third, remembering);
+  state.memory[2] = 1;
+  EXPECT_NE(remembering, state_hash(1, state));
 }
 
 class JournalInBytes : public testing::Test {

@@ -287,6 +287,33 @@ TEST(Tick, survives_a_bridge_that_writes_nonsense_everywhere) {
   EXPECT_EQ(tick.fleet().vehicles()[1].H_0, reference.fleet().vehicles()[1].H_0);
 }
 
+/// Every step once, in blocks that follow each other, the last one short; without the key nothing.
+TEST(Tick, leaves_a_digest_of_every_step_where_the_scene_asks_for_it) {
+  for (const bool every_step : {true, false}) {
+    scene::Scene scene = test::tick_scene(45);
+    scene.run.hashes_every_step = every_step;
+    MappedSegment segment = MappedSegment::create(2);
+    const auto hot = std::make_unique<HotJournal>();
+    JournalWriter journal(*hot, 1);
+    Tick tick(scene, segment);
+    tick.record_in(&journal);
+    const std::atomic<bool> stop{false};
+    tick.run(stop);
+    std::uint64_t next = 1;
+    Fleet again(scene.spacecraft, "coadjoint_rk4", StepLimits{});
+    while (const auto record = hot->ring.pop()) {
+      ASSERT_EQ(record->kind, JournalKind::step_digests);
+      ASSERT_EQ(record->step, next);
+      const auto block = payload_of<DigestBlock>(*record);
+      for (std::uint64_t i = 0; i < block.count; ++i, ++next) {
+        again.step(static_cast<std::int64_t>(next - 1) * 10 * kMs, 10 * kMs);
+        ASSERT_EQ(block.digests[i], digest_of(again.vehicles())) << next;
+      }
+    }
+    EXPECT_EQ(next, every_step ? 46U : 1U);
+  }
+}
+
 TEST(Tick, may_be_commanded_from_another_thread_while_it_runs) {
   scene::Scene scene = tick_scene(0);
   scene.telemetry = {100, 100, 1000, {0, 1}};
