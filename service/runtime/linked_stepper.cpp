@@ -52,6 +52,8 @@ std::unique_ptr<multibody::LinkedFlight<double>> make_linked(const scene::Spacec
   const scene::LinkedBodies& linked = *craft.linked;
   auto flight = std::make_unique<multibody::LinkedFlight<double>>(
       multibody::Assembly<double>(linked.bodies, linked.joints, {linked.formulation, {}}));
+  count_from(flight->assembly, flight->state,
+             std::span<const std::array<double, 3>>(linked.start_coordinates));
   flight->motors = linked.motors;
   flight->first_torque = craft.first_torque;
   const bool gravity =

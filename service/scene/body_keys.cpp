@@ -108,6 +108,22 @@ class LinkedReader {
     }
   }
 
+  /// A joint that closes a loop stands where the others of the loop put it.
+  void refuse_starts_in_loops() const {
+    const auto& joints = plan_.linked.joints;
+    for (const int loop : multibody::find_topology(plan_.linked.bodies.size(), joints).loops) {
+      const auto j = static_cast<std::size_t>(loop);
+      for (const Value& value : {begun_[j].coordinate, begun_[j].rate}) {
+        if (value) {
+          value.refuse_as(
+              "a start of joint " + in_quotes(joints[j].name) + ", which closes a loop",
+              "a start of the other joints of the loop, which say where this one stands",
+              "removing it");
+        }
+      }
+    }
+  }
+
  private:
   int place_of(std::string_view name) const {
     const auto& bodies = plan_.linked.bodies;
@@ -167,21 +183,36 @@ class LinkedReader {
       motor.coordinate = k;
       motor.standing = read.standing[k];
       if (read.commanded) {
-        add_actuator(read.standing.size() == 1 ? name : name + "." + std::to_string(k + 1),
+        add_actuator(where, read.standing.size() == 1 ? name : name + "." + std::to_string(k + 1),
                      read.limit);
       }
       plan_.linked.motors.push_back(motor);
     }
     plan_.linked.joints.push_back(std::move(read.joint));
+    plan_.linked.start_coordinates.push_back(read.start.q);
     plan_.starts.push_back(read.start);
+    plan_.joint_values.push_back(where);
+    begun_.push_back({read.coordinate, read.rate});
   }
 
-  void add_actuator(const std::string& name, double limit) {
+  void add_actuator(const Value& where, const std::string& name, double limit) {
+    const auto& all = plan_.actuators;
+    if (std::any_of(all.begin(), all.end(), [&](const auto& a) { return a.name == name; })) {
+      where.refuse_as("a motor called " + in_quotes(name) + " again",
+                      "a name of its own for each motor; of a joint with several they are NAME.1, "
+                      "NAME.2, ...",
+                      "another name for one of the joints");
+    }
     plan_.actuators.push_back(
         {name, ActuatorKind::joint, plan_.linked.motors.size(), {limit, 0, 0}});
   }
 
+  struct Begun {
+    Value coordinate, rate;
+  };
+
   LinkedPlan& plan_;
+  std::vector<Begun> begun_;  ///< by joint
 };
 
 template <class Each>
@@ -202,13 +233,18 @@ void for_each_block(const Value& value, std::string_view remedy, const Each& eac
   }
 }
 
+/// An empty list is none.
+bool names_some(const Value& value) {
+  return value && !(value.is(Node::Kind::array) && value.node().items.empty());
+}
+
 }  // namespace
 
 std::unique_ptr<LinkedPlan> read_linked(Keys& spacecraft) {
   const Value bodies = spacecraft.optional("body"), joints = spacecraft.optional("joint"),
               chains = spacecraft.optional("chain"), mass = spacecraft.optional("mass_kg"),
               linking = spacecraft.optional("formulation");
-  if (!bodies && !joints && !chains) {
+  if (!names_some(bodies) && !names_some(joints) && !names_some(chains)) {
     for (const Value& value : {mass, linking}) {
       if (value) {
         value.refuse_as("a key of linked bodies without any", "[[spacecraft.body]] beside it",
@@ -237,6 +273,7 @@ std::unique_ptr<LinkedPlan> read_linked(Keys& spacecraft) {
                  [&](const Value& value) { reader.read_chain(value); });
   for_each_block(joints, "[[spacecraft.joint]], in double brackets",
                  [&](const Value& value) { reader.read_joint(value); });
+  reader.refuse_starts_in_loops();
   return plan;
 }
 
@@ -262,6 +299,11 @@ std::shared_ptr<const LinkedBodies> place_linked(const LinkedPlan& plan,
     const multibody::Assembly<double> assembly(placed->bodies, placed->joints,
                                                {placed->formulation, {}});
     return placed;
+  } catch (const multibody::JointApart& error) {
+    plan.joint_values[error.joint].refuse_as(
+        error.defect, "joints that close: this one stands where the others of its loop put it",
+        "the coordinate, rate or points of the others");
+    return nullptr;
   } catch (const std::invalid_argument& error) {
     plan.where.refuse_as(error.what(), "bodies and joints that fit together", "correcting that");
     return nullptr;

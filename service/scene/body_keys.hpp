@@ -15,9 +15,10 @@ namespace adstar::scene {
 /// What the bodies and joints of a spacecraft are asked to be; its hub's start comes later.
 struct LinkedPlan {
   LinkedBodies linked;  ///< bodies[0] is the hub, its start still to be set
-  std::vector<multibody::JointStart<double>> starts;
-  std::vector<Actuator> actuators;  ///< commanded motors
-  Value where;                      ///< for what is wrong with the whole
+  std::vector<multibody::JointStart<double>> starts;  ///< by joint
+  std::vector<Value> joint_values;                    ///< by joint, where each was named
+  std::vector<Actuator> actuators;                    ///< commanded motors
+  Value where;                                        ///< for what is wrong with the whole
 };
 
 /// Of the spacecraft's table; null when it is one body.

@@ -11,12 +11,13 @@ using multibody::CoordinateLaw;
 using multibody::JointKind;
 
 constexpr std::string_view kPoint = "[0.5, 0.0, 0.0]";
+constexpr double kHalfTurn = 3.141592653589793;
 
-/// Of any length but zero.
+/// Of any length whose square is a number.
 std::optional<Vec3<double>> read_direction(const Value& value, std::string_view example) {
   const auto given = read_vector(value, example);
-  if (given && *given == Vec3<double>{}) {
-    value.refuse("a direction, not all zeros", example);
+  if (given && !(norm(*given) > 1e-100 && norm(*given) < 1e100)) {
+    value.refuse("a direction: of a length between 1e-100 and 1e100", example);
     return std::nullopt;
   }
   return given;
@@ -140,10 +141,15 @@ std::optional<JointRead> read_joint_keys(Keys& keys) {
       read.joint.a.q_BF = read.joint.b.q_BF = axes_along(*kind, *axis);
     }
   }
-  read.start.q = read_coordinates(keys.optional("coordinate"), count,
-                                  "where it stands at the start [rad], or [m]");
-  read.start.rate =
-      read_coordinates(keys.optional("rate"), count, "its rate at the start [rad/s], or [m/s]");
+  read.coordinate = keys.optional("coordinate");
+  read.rate = keys.optional("rate");
+  read.start.q =
+      read_coordinates(read.coordinate, count, "where it stands at the start [rad], or [m]");
+  read.start.rate = read_coordinates(read.rate, count, "its rate at the start [rad/s], or [m/s]");
+  const auto& [x, y, z] = read.start.q;
+  if (*kind == multibody::JointKind::spherical && !(norm(Vec3<double>{x, y, z}) < kHalfTurn)) {
+    read.coordinate.refuse("a rotation vector of less than half a turn", "[0.0, 0.0, 1.0]");
+  }
   read_laws(keys, count, read.joint.laws);
   const Value limit = keys.optional("max_motor_torque");
   read.limit =
@@ -162,6 +168,12 @@ std::optional<JointRead> read_joint_keys(Keys& keys) {
   }
   if (read.commanded && !limit) {
     keys.miss("max_motor_torque", {"what a command may ask for", "0.5"});
+  }
+  for (int k = 0; limit && k < count; ++k) {
+    if (std::abs(standing[static_cast<std::size_t>(k)]) > read.limit) {
+      torque.refuse("no more than max_motor_torque", "0.1");
+      break;
+    }
   }
   if (limit || torque) {
     read.standing.assign(standing.begin(), standing.begin() + count);

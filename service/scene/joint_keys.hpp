@@ -13,6 +13,7 @@ namespace adstar::scene {
 struct JointRead {
   multibody::Joint<double> joint;
   multibody::JointStart<double> start;
+  Value coordinate, rate;        ///< where the start was named, if it was
   std::vector<double> standing;  ///< of its motor, a coordinate each; empty: none
   double limit = 0;
   bool commanded = false;

@@ -106,6 +106,7 @@ struct PointingTarget {
 struct LinkedBodies {
   std::vector<multibody::BodySpec<double>> bodies;  ///< the first is the hub, "hub"
   std::vector<multibody::Joint<double>> joints;
+  std::vector<std::array<double, 3>> start_coordinates;  ///< by joint, through whole turns
   multibody::Formulation formulation = multibody::Formulation::se3;
   std::vector<multibody::CoordinateMotor<double>> motors;
 };

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "service/report/numbers.hpp"
+#include "service/report/scene_report.hpp"
 #include "service/runtime/fleet_snapshot.hpp"
 #include "service/runtime/linked_stepper.hpp"
 #include "tests/support/gate_harness.hpp"
+#include "tests/support/linked_craft.hpp"
 
 namespace adstar::runtime {
 namespace {
@@ -14,47 +17,10 @@ namespace {
 using test::GateHarness;
 using test::kMs;
 
-constexpr const char* kScene = R"(
-[simulation]
-step = "10ms"
-[[spacecraft]]
-name = "sat1"
-mass_kg = 100
-inertia_body_kg_m2 = [9, 11, 16]
-angular_velocity_body_rad_s = [0.1, -0.05, 0.2]
-[[spacecraft.body]]
-name = "panel"
-mass_kg = 5
-inertia_body_kg_m2 = [0.5, 0.2, 0.6]
-[[spacecraft.body]]
-name = "boom"
-mass_kg = 2
-inertia_body_kg_m2 = [0.3, 0.3, 0.01]
-[[spacecraft.joint]]
-name = "hinge"
-kind = "revolute"
-from = "hub"
-to = "panel"
-point_from_body_m = [0, 0.5, 0]
-point_to_body_m = [0, -1, 0]
-axis_body = [1, 0, 0]
-coordinate = 0.4
-stiffness = 3.0
-damping = 0.1
-max_motor_torque = 0.5
-commanded = true
-[[spacecraft.joint]]
-name = "ball"
-kind = "spherical"
-from = "hub"
-to = "boom"
-point_from_body_m = [0, 0, -0.6]
-point_to_body_m = [0, 0, 0.8]
-rate = [0.1, 0.0, 0.3]
-)";
+using test::kLinkedScene;
 
 std::vector<scene::Spacecraft> craft(const std::string& more = "") {
-  return scene::parse(kScene + more, "scene.toml").spacecraft;
+  return scene::parse(kLinkedScene + more, "scene.toml").spacecraft;
 }
 
 CommandRecord push(std::uint64_t sequence, double torque, std::int64_t start_ns,
@@ -145,6 +111,134 @@ TEST(LinkedFleet, a_reset_brings_the_start_back) {
   EXPECT_EQ(fleet.vehicles()[0].linked->state.work.value, 0);
 }
 
+TEST(LinkedFleet, a_reset_takes_what_was_commanded_from_its_motors) {
+  GateHarness gate(craft());
+  gate.fleet().keep_start();
+  gate.receive(push(1, 0.4, kStartAtNextBeat, 3'000 * kMs));
+  gate.run_until(100 * kMs);
+  ASSERT_TRUE(gate.fleet().reset());
+  Fleet fresh(craft(), "coadjoint_rk4", StepLimits{});
+  for (std::int64_t n = 0; n < 30; ++n) {
+    gate.fleet().step(n * 10 * kMs, 10 * kMs);
+    fresh.step(n * 10 * kMs, 10 * kMs);
+  }
+  EXPECT_EQ(state_of(gate.fleet()).memory, state_of(fresh).memory);
+}
+
+TEST(LinkedFleet, a_hinge_that_begins_wound_up_to_where_its_spring_rests_stays_there) {
+  std::string text = kLinkedScene;
+  text.replace(text.find("coordinate = 0.4"), 16, "coordinate = 15.0\nrest = 15.0");
+  text.erase(text.find("angular_velocity_body_rad_s"),
+             text.find('\n', text.find("angular_velocity_body_rad_s")) -
+                 text.find("angular_velocity_body_rad_s"));
+  text.erase(text.find("rate = [0.1, 0.0, 0.3]"));
+  Fleet fleet(scene::parse(text, "scene.toml").spacecraft, "coadjoint_rk4", StepLimits{});
+  Vehicle& vehicle = fleet.vehicles()[0];
+  EXPECT_NEAR(vehicle.linked->state.coordinates[0][0], 15, 1e-14);
+  EXPECT_LT(energy_of(vehicle), 1e-25);
+  for (std::int64_t n = 0; n < 100; ++n) {
+    fleet.step(n * 10 * kMs, 10 * kMs);
+  }
+  EXPECT_NEAR(vehicle.linked->state.coordinates[0][0], 15, 1e-12);
+}
+
+TEST(LinkedFleet, a_damping_on_a_body_is_stepped_in_parts_that_it_is_stable_in) {
+  scene::Spacecraft resting = test::resting_linked_craft();
+  const auto parts_under = [&](double coefficient_n_m_s_rad, Vehicle& vehicle) {
+    vehicle.torques = {Damping<double>{{0, coefficient_n_m_s_rad, 0}}};
+    vehicle.linked->first_torque = {0, 0, 1, 1};  // of the panel
+    bool edges_left = false;
+    return multibody::advance<Rk4>(*vehicle.linked,
+                                   std::span<const Torque<double>>(vehicle.torques), 0, 100 * kMs,
+                                   {}, 64, edges_left);
+  };
+  Fleet fleet({resting}, "coadjoint_rk4", StepLimits{});
+  // h c/J_min by decay_limit(4): 0.1 s · 50 N m s/rad / 0.2 kg m² / 0.5; the hinge's damper adds to it.
+  const auto fits = parts_under(50, fleet.vehicles()[0]);
+  EXPECT_GE(fits.parts, 50);
+  EXPECT_LT(fits.parts, 64);
+  EXPECT_TRUE(fits.resolved());
+  const auto too_stiff = parts_under(3e4, fleet.vehicles()[0]);
+  EXPECT_TRUE(too_stiff.unresolved_stiffness);
+  EXPECT_EQ(too_stiff.parts, 64);
+}
+
+/// Two bodies on a fixed joint are one body of their common inertia, in the gravity of a point mass too.
+TEST(LinkedFleet, two_bodies_held_together_fly_an_orbit_as_one) {
+  const std::string orbit =
+      "[[spacecraft.torque]]\nmodel = \"gravity_gradient\"\n"
+      "[spacecraft.orbit]\nsemi_major_axis_m = 7e6\neccentricity = 0.01\n";
+  const std::string head =
+      "[simulation]\nstep = \"1s\"\n[[spacecraft]]\nname = \"s\"\n"
+      "angular_velocity_body_rad_s = [1e-3, 2e-3, -1e-3]\n";
+  const scene::Scene two =
+      scene::parse(head + "mass_kg = 30\ninertia_body_kg_m2 = [9, 11, 16]\n" + orbit +
+                       "[[spacecraft.body]]\nname = \"tip\"\nmass_kg = 10\n"
+                       "inertia_body_kg_m2 = [0.3, 0.2, 0.1]\n"
+                       "[[spacecraft.joint]]\nname = \"boom\"\nkind = \"fixed\"\nfrom = \"hub\"\n"
+                       "to = \"tip\"\npoint_from_body_m = [4, 0, 0]\n"
+                       "point_to_body_m = [0, 0, 0]\n",
+                   "two.toml");
+  // Steiner: 30·10/40 kg at 4 m along x.
+  const scene::Scene one =
+      scene::parse(head + "inertia_body_kg_m2 = [9.3, 131.2, 136.1]\n" + orbit, "one.toml");
+  Fleet linked(two.spacecraft, "coadjoint_rk4", StepLimits{});
+  Fleet single(one.spacecraft, "coadjoint_rk4", StepLimits{});
+  for (std::int64_t n = 0; n < 2000; ++n) {
+    ASSERT_EQ(linked.step(n * 1'000 * kMs, 1'000 * kMs), 0U);
+    single.step(n * 1'000 * kMs, 1'000 * kMs);
+  }
+  const Quat<double> a = linked.vehicles()[0].state.q_IB, b = single.vehicles()[0].state.q_IB;
+  EXPECT_LT(norm(Vec3<double>{a.x - b.x, a.y - b.y, a.z - b.z}), 1e-9);
+  const Vec3<double> H = single.vehicles()[0].state.H_I.value();
+  EXPECT_LT(norm(linked.vehicles()[0].state.H_I.value() - H), 1e-9 * norm(H));
+  EXPECT_GT(norm(H - one.spacecraft[0].initial.H_I.value()), 0.1 * norm(H)) << "gravity turns it";
+}
+
+/// A parallelogram of four bars that folds flat: there its loads are not unique, and that is said.
+TEST(LinkedFleet, says_when_a_loop_goes_through_a_dead_point) {
+  const auto bar = [](const std::string& name, double length) {
+    return "[[spacecraft.body]]\nname = \"" + name +
+           "\"\nmass_kg = 1\ninertia_body_kg_m2 = [0.01, 0.1, 0.1]\n[[spacecraft.joint]]\nname = "
+           "\"j" +
+           name + "\"\nkind = \"revolute\"\naxis_body = [0, 0, 1]\nto = \"" + name +
+           "\"\npoint_to_body_m = [" + std::to_string(-length / 2) + ", 0, 0]\n";
+  };
+  const scene::Scene scene = scene::parse(
+      "[simulation]\nstep = \"10ms\"\n[[spacecraft]]\nname = \"s\"\nmass_kg = 1000\n"
+      "inertia_body_kg_m2 = [1000, 1000, 1000]\n" +
+          bar("left", 1) + "from = \"hub\"\npoint_from_body_m = [-1, 0, 0]\ncoordinate = 0.05\n" +
+          "rate = -1.0\n" + bar("right", 1) +
+          "from = \"hub\"\npoint_from_body_m = [1, 0, 0]\ncoordinate = 0.05\nrate = -1.0\n" +
+          bar("coupler", 2) +
+          "from = \"left\"\npoint_from_body_m = [0.5, 0, 0]\ncoordinate = -0.05\nrate = 1.0\n" +
+          "[[spacecraft.joint]]\nname = \"closes\"\nkind = \"revolute\"\naxis_body = [0, 0, 1]\n"
+          "from = \"coupler\"\nto = \"right\"\npoint_from_body_m = [1, 0, 0]\n"
+          "point_to_body_m = [0.5, 0, 0]\n",
+      "bars.toml");
+  Fleet fleet(scene.spacecraft, "coadjoint_rk4", StepLimits{});
+  std::uint32_t seen = 0;
+  for (std::int64_t n = 0; n < 20; ++n) {
+    fleet.step(n * 10 * kMs, 10 * kMs);
+    seen |= fleet.vehicles()[0].flags;
+  }
+  EXPECT_NE(seen & kFlagJointOpen, 0U) << seen;
+}
+
+TEST(LinkedFleet, is_reported_with_the_rate_of_its_hub_and_the_turn_of_its_fastest_body) {
+  const scene::Scene scene = scene::parse(kLinkedScene, "scene.toml");
+  const std::string text = report::scene_report(scene);
+  EXPECT_NE(text.find("at t = 0  |omega| 0.229129 rad/s"), std::string::npos) << text;
+  double fastest = 0;
+  for (const auto& body : scene.spacecraft[0].linked->bodies) {
+    fastest = std::max(fastest, norm(body.omega_B));
+  }
+  EXPECT_GT(fastest, 0.3);
+  EXPECT_NE(text.find("|omega| h at most " + report::short_number(0.01 * fastest)),
+            std::string::npos)
+      << text;
+}
+
 TEST(LinkedFleet, another_state_or_body_is_refused) {
   Fleet fleet(craft(), "coadjoint_rk4", StepLimits{});
   EXPECT_FALSE(fleet.set_motion(0, {}, {0, 0, 1}));
@@ -153,7 +247,7 @@ TEST(LinkedFleet, another_state_or_body_is_refused) {
 
 /// The load of a joint at rest under a torque on the panel alone: the hinge passes on what the hub needs to turn with it.
 TEST(LinkedFleet, a_joint_tells_what_it_carries) {
-  std::string text = kScene;
+  std::string text = kLinkedScene;
   text.replace(text.find("kind = \"revolute\""), 17, "kind = \"fixed\"   ");
   for (const char* const key :
        {"axis_body = [1, 0, 0]\n", "coordinate = 0.4\n", "stiffness = 3.0\n", "damping = 0.1\n",

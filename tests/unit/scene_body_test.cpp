@@ -20,7 +20,10 @@ Spacecraft read(const std::string& lines) {
   return parse(in_spacecraft(lines), "scene.toml").spacecraft[0];
 }
 
-TEST(SceneBodies, are_none_unless_named) { EXPECT_EQ(read("").linked, nullptr); }
+TEST(SceneBodies, are_none_unless_named) {
+  EXPECT_EQ(read("").linked, nullptr);
+  EXPECT_EQ(read("body = []\njoint = []\n").linked, nullptr);
+}
 
 TEST(SceneBodies, are_placed_by_their_joints_about_the_common_centre_of_mass) {
   const Spacecraft craft = read("angular_velocity_body_rad_s = [0, 0, 0.1]\n" + kMass + kPanel +
@@ -75,6 +78,11 @@ TEST(SceneBodies, motors_are_actuators_one_for_each_free_coordinate) {
   EXPECT_EQ(two.linked->motors[1].coordinate, 1U);
 }
 
+TEST(SceneBodies, a_hinge_may_begin_wound_up_through_whole_turns) {
+  const Spacecraft craft = read(kMass + kPanel + kHinge + "coordinate = -21.0\nrest = -21.0\n");
+  EXPECT_EQ(craft.linked->start_coordinates[0][0], -21);
+}
+
 TEST(SceneBodies, torques_go_to_the_body_that_they_name_and_gravity_to_all) {
   const Spacecraft craft =
       read(kMass + "[spacecraft.orbit]\nsemi_major_axis_m = 7e6\n" + kPanel + kHinge +
@@ -115,12 +123,45 @@ TEST(SceneBodies, say_what_does_not_fit) {
            "[[spacecraft.torque]]\nmodel = \"constant\"\nframe = \"body\"\n"
            "torque_n_m = [0, 0, 1]\nbody = \"panl\"\n",
        "\"panel\"");
+  says(kMass + kPanel + kHinge + "max_motor_torque = 0.1\nmotor_torque = -5\n",
+       "no more than max_motor_torque");
+  std::string spun = kHinge;
+  spun.replace(spun.find("[1, 0, 0]"), 9, "[1e200, 0, 0]");
+  says(kMass + kPanel + spun,
+       "spacecraft[0].joint[0].axis_body: got [1e+200, 0, 0], expected a direction");
+  std::string ball = kHinge.substr(0, kHinge.find("axis_body"));
+  ball.replace(ball.find("revolute"), 8, "spherical");
+  says(kMass + kPanel + ball + "coordinate = [0, 0, 3.3]\n", "less than half a turn");
+  std::string named = kHinge, second = kPanel;
+  named.replace(named.find("\"hinge\""), 7, "\"hinge.1\"");
+  ball.replace(ball.find("\"panel\""), 7, "\"boom\"");
+  second.replace(second.find("\"panel\""), 7, "\"boom\"");
+  const std::string motor = "max_motor_torque = 1\ncommanded = true\n";
+  says(kMass + kPanel + second + ball + motor + named + motor, "a motor called \"hinge.1\" again");
   std::string to_itself = kHinge;
   to_itself.replace(to_itself.find("\"panel\""), 7, "\"hub\"");
   says(kMass + kPanel + to_itself, "with itself");
   EXPECT_NE(refusal(in_simulation("scheme = \"rkmk4\"") + kMass + kPanel + kHinge)
                 .find("does not step linked bodies"),
             std::string::npos);
+}
+
+/// Two hinges from the hub to the panel: the second closes a loop.
+TEST(SceneBodies, a_joint_that_closes_a_loop_stands_where_the_others_put_it) {
+  std::string again = kHinge;
+  again.replace(again.find("\"hinge\""), 7, "\"again\"");
+  EXPECT_EQ(read(kMass + kPanel + kHinge + "coordinate = 0.3\n" + again).linked->joints.size(), 2U);
+  const std::string started =
+      refusal(in_spacecraft(kMass + kPanel + kHinge + again + "coordinate = 0.3\n"));
+  EXPECT_NE(
+      started.find("joint[1].coordinate: got a start of joint \"again\", which closes a loop"),
+      std::string::npos)
+      << started;
+  again.replace(again.find("[0, -1, 0]"), 10, "[0, -2, 0]");
+  const std::string apart = refusal(in_spacecraft(kMass + kPanel + kHinge + again));
+  EXPECT_NE(apart.find("joint[1].name: got joint 'again' (revolute): "), std::string::npos)
+      << apart;
+  EXPECT_EQ(apart.find("place()"), std::string::npos) << apart;
 }
 
 }  // namespace

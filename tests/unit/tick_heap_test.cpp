@@ -1,10 +1,12 @@
 // A beat that touches the heap may wait for a lock or a page: none may.
 #include <atomic>
+#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "service/runtime/tick.hpp"
 #include "tests/support/count_allocations.hpp"
+#include "tests/support/linked_craft.hpp"
 #include "tests/support/tick_scene.hpp"
 
 namespace adstar::runtime {
@@ -40,6 +42,40 @@ TEST(TickHeap, is_not_touched_by_a_run_with_commands_telemetry_and_snapshots) {
   EXPECT_EQ(allocation_count() - before, 0U);
   EXPECT_EQ(tick.report().commands_received.load(), 4000U);
   EXPECT_GT(test::verdicts_of(segment).size(), 2000U);
+}
+
+TEST(TickHeap, is_not_touched_by_coils_thrusters_orbits_and_linked_bodies_nor_by_digests) {
+  scene::Scene scene = test::tick_scene(1'000);
+  scene.spacecraft = {test::in_space(test::make_craft(0)), test::linked_craft()};
+  scene.telemetry.attitude_every = scene.telemetry.momentum_every = 1;
+  scene.telemetry.linked_every = scene.telemetry.pointing_every = 3;
+  scene.telemetry.watched = {0, 1};
+  scene.run.hashes_every_step = true;
+  MappedSegment segment = MappedSegment::create(2);
+  const auto hot = std::make_unique<HotJournal>();
+  JournalWriter journal(*hot, 1);
+  Tick tick(scene, segment);
+  tick.record_in(&journal);
+  for (std::uint64_t n = 1; n <= 900; ++n) {
+    CommandRecord command;
+    command.sequence = n;
+    command.spacecraft = n % 3 == 0 ? 1 : 0;
+    command.actuator = n % 3 == 1 ? 1 : 0;
+    command.quantity = n % 3 == 0   ? Quantity::torque
+                       : n % 3 == 1 ? Quantity::thrust
+                                    : Quantity::dipole;
+    command.start_ns = static_cast<std::int64_t>(n) * 11 * kMs;
+    command.duration_ns = static_cast<std::int64_t>(n % 17 + 1) * kMs;
+    command.value = {n % 3 == 1 ? 1.0 : 0.3, 0, 0};
+    ASSERT_TRUE(segment->commands.push(command));
+  }
+  const std::atomic<bool> stop{false};
+  const std::uint64_t before = allocation_count();
+  tick.run(stop);
+  EXPECT_EQ(allocation_count() - before, 0U);
+  EXPECT_EQ(tick.report().unresolved_spacecraft.load(), 0U);
+  EXPECT_GT(segment->joints.size(), 600U);
+  EXPECT_GT(segment->pointing.size(), 300U);
 }
 
 TEST(TickHeap, is_not_touched_under_the_clock) {

@@ -35,6 +35,7 @@
 #include "adstar/integrators/coadjoint.hpp"
 #include "adstar/integrators/guard.hpp"
 #include "adstar/integrators/stage_weights.hpp"
+#include "adstar/multibody/fast_rates.hpp"
 #include "adstar/multibody/projection.hpp"
 #include "adstar/multibody/se3.hpp"
 #include "adstar/multibody/workspace.hpp"
@@ -70,64 +71,6 @@ struct AssemblyLimits {
 };
 
 namespace detail {
-
-/// Fastest rates of springs, stops within reach, and dampers, at work.motions [1/s].
-template <class T>
-struct FastRates {
-  T oscillation{}, decay{};
-};
-
-template <class T>
-FastRates<T> fast_rates(const Assembly<T>& assembly, Workspace<T>& work, const T& h) {
-  using std::abs;
-  using std::max;
-  using std::sqrt;
-  // work.accelerations lends its memory: [0] Σ k/m, [1] Σ c/m by body.
-  for (Spatial<T>& each : work.accelerations) {
-    each = {};
-  }
-  FastRates<T> rates;
-  for (std::size_t j = 0; j < work.joints.size(); ++j) {
-    const Joint<T>& joint = assembly.joints()[j];
-    const JointMotion<T>& m = work.joints[j];
-    const std::array<T, 3> rate = joint_rates(joint.kind, m);
-    T stiffness{}, damping{};
-    for (int k = 0; k < m.shape.coordinates; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const CoordinateLaw<T>& law = joint.laws[i];
-      const T q = work.coordinates[j][i], reach = T(2) * h * abs(rate[i]);
-      stiffness = stiffness + law.stiffness;
-      damping = damping + law.damping;
-      if (law.stops && (q + reach > law.upper || q - reach < law.lower)) {
-        stiffness = stiffness + law.stop_stiffness;
-        damping = damping + law.stop_stiffness * law.stop_dissipation * abs(stop_depth(law, q));
-      }
-    }
-    if (!(stiffness > T(0)) && !(damping > T(0))) {
-      continue;
-    }
-    const auto add = [&](int body, const Vec3<T>& lever) {
-      if (body == kGround) {
-        return;
-      }
-      const Body<T>& own = assembly.bodies()[static_cast<std::size_t>(body)];
-      const T about = own.rigid.inverse_moments()[0];
-      const T mobility = joint.kind == JointKind::prismatic
-                             ? T(1) / own.mass + squared_norm(cross(lever, m.z_F)) * about
-                             : about;
-      Spatial<T>& sums = work.accelerations[static_cast<std::size_t>(body)];
-      sums[0] = sums[0] + stiffness * mobility;
-      sums[1] = sums[1] + damping * mobility;
-      rates.oscillation = max(rates.oscillation, sums[0]);
-      rates.decay = max(rates.decay, sums[1]);
-    };
-    add(joint.body_a, m.s);
-    add(joint.body_b, m.r);
-  }
-  rates.oscillation = sqrt(T(2) * rates.oscillation);
-  rates.decay = T(2) * rates.decay;
-  return rates;
-}
 
 /// Σ weights[l] k_l over the stages before `count`, of a member of the slopes.
 template <class T, class Slope, class Weights>
@@ -334,7 +277,7 @@ T energy_at_rest(const Assembly<T>& assembly, const std::vector<BodyMotion<T>>& 
 }  // namespace detail
 
 /// Advances `state` by h_ns [ns]. `motors`: by joint and free coordinate, constant over the step [N m] or [N], or
-/// null. Never throws, never allocates.
+/// null. A load that damps says how fast, in decay() [1/s]. Never throws, never allocates.
 template <class Tableau, class T, class Load = NoLoad>
 AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, AssemblyState<T>& state,
                           std::int64_t h_ns,
@@ -356,6 +299,9 @@ AssemblyReport<T> advance(const Assembly<T>& assembly, Workspace<T>& work, Assem
     detail::evaluate_joints(assembly, work);
     work.coordinates = state.coordinates;
     rates = detail::fast_rates(assembly, work, length);
+  }
+  if constexpr (requires { load.decay(); }) {
+    rates.decay = rates.decay + load.decay();
   }
   const T stiff = length * max(rates.oscillation, rates.decay / T(decay_limit(Tableau::kOrder)));
   const T wanted = ceil(max(max(T(1), length * fastest / angle), stiff));

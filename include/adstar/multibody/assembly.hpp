@@ -60,6 +60,14 @@ struct LoopJoint {
   }
 };
 
+/// A joint whose bodies are apart at the start, or part there.
+struct JointApart : std::invalid_argument {
+  JointApart(std::size_t which, const std::string& what_is_wrong, const std::string& remedy)
+      : std::invalid_argument(what_is_wrong + "; " + remedy), joint(which), defect(what_is_wrong) {}
+  std::size_t joint;
+  std::string defect;  ///< the message without its remedy
+};
+
 /// Bodies part by no more than this share of their size at the start.
 inline constexpr double kStartTolerance = 1e-9;
 /// Squared sine of the angle between a redundant row and what the others span.
@@ -135,7 +143,16 @@ class Assembly {
   void check_start() const {
     JointMotion<T> m;
     using std::abs;
-    for (const Joint<T>& joint : joints_) {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Joint<T>& joint = joints_[j];
+      const auto apart = [&](int row, const char* verb, const T& by, const char* unit,
+                             const char* remedy) {
+        std::ostringstream text;
+        text << "joint '" << joint.name << "' (" << kind_name(joint.kind)
+             << "): " << row_name(joint.kind, row) << verb << static_cast<double>(by) << unit
+             << " at the start";
+        throw JointApart(j, text.str(), remedy);
+      };
       const BodyMotion<T>& a = motion_of(starts_, joint.body_a);
       const BodyMotion<T>& b = motion_of(starts_, joint.body_b);
       evaluate(joint, a, b, m);
@@ -146,16 +163,12 @@ class Assembly {
         const bool moves = row < m.shape.translations;
         const T tolerance = T(kStartTolerance);
         if (!(abs(m.gap[i]) <= tolerance * (moves ? length : T(1)))) {
-          detail::refuse("joint '", joint.name, "' (", kind_name(joint.kind),
-                         "): ", row_name(joint.kind, row), " is open by ",
-                         static_cast<double>(m.gap[i]), moves ? " m" : " rad",
-                         " at the start; move the bodies together, or let place() do it");
+          apart(row, " is open by ", m.gap[i], moves ? " m" : " rad",
+                "move the bodies together, or let place() do it");
         }
         if (!(abs(m.rate[i]) <= tolerance * (moves ? speed : turn))) {
-          detail::refuse("joint '", joint.name, "' (", kind_name(joint.kind),
-                         "): ", row_name(joint.kind, row), " opens at ",
-                         static_cast<double>(m.rate[i]), moves ? " m/s" : " rad/s",
-                         " at the start; make the velocities fit, or let place() do it");
+          apart(row, " opens at ", m.rate[i], moves ? " m/s" : " rad/s",
+                "make the velocities fit, or let place() do it");
         }
       }
       if (joint.kind != JointKind::spherical && joint.kind != JointKind::universal &&

@@ -114,6 +114,30 @@ BodyLoad<T> load_of(const LinkedFlight<T>& flight, std::span<const Torque<T>> al
   return load;
 }
 
+/// What acts on the bodies over a segment that began at t_s.
+template <class T>
+struct FlightLoad {
+  const LinkedFlight<T>& flight;
+  std::span<const Torque<T>> torques;
+  T t_s{};
+
+  BodyLoad<T> operator()(const LoadStage<T>& stage) const {
+    return load_of(flight, torques, t_s, stage);
+  }
+
+  /// The fastest rate at which a body of its own loses omega_B to it [1/s].
+  T decay() const {
+    using std::max;
+    T fastest{};
+    for (std::size_t i = 0; i < flight.segments.size(); ++i) {
+      const Vec3<T>& damping = flight.segments[i].damping;
+      fastest = max(fastest, max(max(damping.x, damping.y), damping.z) *
+                                 flight.assembly.bodies()[i].rigid.inverse_moments()[0]);
+    }
+    return fastest;
+  }
+};
+
 /// Advances the flight from t_ns to t_ns + h_ns [ns] under `torques`, body by body as first_torque has them. Never
 /// throws, never allocates. `edges`: at most so many segments; past it `edges_left` is set and the rest of the step
 /// takes what is in force at its beginning.
@@ -141,9 +165,7 @@ AssemblyReport<T> advance(LinkedFlight<T>& flight, std::span<const Torque<T>> to
     const std::array<T, 3>* const motors =
         flight.motors.empty() ? nullptr : flight.motor_torques.data();
     const T t_s = seconds<T>(t_ns);
-    const auto load = [&](const LoadStage<T>& stage) {
-      return load_of(flight, torques, t_s, stage);
-    };
+    const FlightLoad<T> load{flight, torques, t_s};
     const AssemblyReport<T> part =
         loaded ? advance<Tableau>(flight.assembly, flight.work, flight.state, next_ns - t_ns,
                                   motors, load, limits)

@@ -85,6 +85,16 @@ T continued(const T& angle, const T& last) {
   return angle + turn * floor((last - angle) / turn + T(0.5));
 }
 
+/// Coordinates with their angles continued from `last`.
+template <class T>
+std::array<T, 3> counted_on(JointKind kind, std::array<T, 3> q, const std::array<T, 3>& last) {
+  if (is_angle(kind)) {
+    q[0] = continued(q[0], last[0]);
+    q[1] = kind == JointKind::universal ? continued(q[1], last[1]) : T(0);
+  }
+  return q;
+}
+
 template <class T>
 std::array<T, 3> joint_rates(JointKind kind, const JointMotion<T>& m) {
   switch (kind) {

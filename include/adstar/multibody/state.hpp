@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -126,6 +127,16 @@ AssemblyState<T> make_state(const Assembly<T>& assembly) {
   return state;
 }
 
+/// Counts the angles on to the turn nearest to `coordinates`, by joint: a spring that was wound up knows its turns.
+template <class T>
+void count_from(const Assembly<T>& assembly, AssemblyState<T>& state,
+                std::span<const std::array<T, 3>> coordinates) {
+  for (std::size_t j = 0; j < state.coordinates.size(); ++j) {
+    state.coordinates[j] =
+        counted_on(assembly.joints()[j].kind, state.coordinates[j], coordinates[j]);
+  }
+}
+
 /// Of the whole, about the origin of I.
 template <class T>
 struct TotalMomentum {
@@ -181,18 +192,21 @@ struct Energy {
   T total() const { return (kinetic + springs) + gravity; }
 };
 
+namespace detail {
+
 template <class T>
-Energy<T> energy_of(const Assembly<T>& assembly, const std::vector<BodyMotion<T>>& motions,
-                    const std::vector<std::array<T, 3>>& coordinates) {
-  Energy<T> energy;
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    const Body<T>& body = assembly.bodies()[i];
-    const BodyMotion<T>& motion = motions[i];
-    const Vec3<T> omega_B = rotate_inverse(motion.q_IB, motion.omega_I);
-    energy.kinetic = energy.kinetic + T(0.5) * (body.mass * squared_norm(motion.v_I) +
-                                                dot(omega_B, body.rigid.momentum(omega_B)));
-    energy.gravity = energy.gravity - body.mass * dot(assembly.options().gravity_I, motion.x_I);
-  }
+void add_energy(const Assembly<T>& assembly, std::size_t of, const BodyMotion<T>& motion,
+                Energy<T>& energy) {
+  const Body<T>& body = assembly.bodies()[of];
+  const Vec3<T> omega_B = rotate_inverse(motion.q_IB, motion.omega_I);
+  energy.kinetic = energy.kinetic + T(0.5) * (body.mass * squared_norm(motion.v_I) +
+                                              dot(omega_B, body.rigid.momentum(omega_B)));
+  energy.gravity = energy.gravity - body.mass * dot(assembly.options().gravity_I, motion.x_I);
+}
+
+template <class T>
+void add_springs(const Assembly<T>& assembly, const std::vector<std::array<T, 3>>& coordinates,
+                 Energy<T>& energy) {
   for (std::size_t j = 0; j < assembly.joints().size(); ++j) {
     const Joint<T>& joint = assembly.joints()[j];
     for (int k = 0; k < shape_of(joint.kind).coordinates; ++k) {
@@ -200,16 +214,30 @@ Energy<T> energy_of(const Assembly<T>& assembly, const std::vector<BodyMotion<T>
       energy.springs = energy.springs + potential(joint.laws[c], coordinates[j][c]);
     }
   }
+}
+
+}  // namespace detail
+
+template <class T>
+Energy<T> energy_of(const Assembly<T>& assembly, const std::vector<BodyMotion<T>>& motions,
+                    const std::vector<std::array<T, 3>>& coordinates) {
+  Energy<T> energy;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    detail::add_energy(assembly, i, motions[i], energy);
+  }
+  detail::add_springs(assembly, coordinates, energy);
   return energy;
 }
 
+/// Never allocates.
 template <class T>
 Energy<T> energy(const Assembly<T>& assembly, const AssemblyState<T>& state) {
-  std::vector<BodyMotion<T>> motions;
+  Energy<T> energy;
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-    motions.push_back(motion_of(assembly, state, i));
+    detail::add_energy(assembly, i, motion_of(assembly, state, i), energy);
   }
-  return energy_of(assembly, motions, state.coordinates);
+  detail::add_springs(assembly, state.coordinates, energy);
+  return energy;
 }
 
 }  // namespace adstar::multibody

@@ -169,12 +169,7 @@ void add_wrench(const Joint<T>& joint, const JointMotion<T>& m, const PointWrenc
 template <class T>
 std::array<T, 3> coordinates_near(const Joint<T>& joint, const JointMotion<T>& m,
                                   const std::array<T, 3>& last) {
-  std::array<T, 3> q = joint_coordinates(joint.kind, m);
-  if (is_angle(joint.kind)) {
-    q[0] = continued(q[0], last[0]);
-    q[1] = joint.kind == JointKind::universal ? continued(q[1], last[1]) : T(0);
-  }
-  return q;
+  return counted_on(joint.kind, joint_coordinates(joint.kind, m), last);
 }
 
 /// Everything at work.motions: joints, loads, accelerations. `last`: coordinates nearby; `motors`: by joint, or
