@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "service/runtime/real_time.hpp"
+#include "tests/support/linked_craft.hpp"
 #include "tests/support/tick_scene.hpp"
 
 namespace adstar::runtime {
@@ -50,6 +51,16 @@ TEST(Admission, measures_wheels_with_their_motors_in_force) {
   const StepCost cheap = quietest(scene);
   scene.simulation.limits.substeps = 2000;
   EXPECT_GT(measure_step(scene).p99_ns, 20 * cheap.p99_ns);
+}
+
+TEST(Admission, measures_linked_bodies_that_rest_as_if_they_turned_and_every_attempt_of_a_step) {
+  scene::Scene scene = paced();
+  scene.spacecraft = {test::resting_linked_craft()};
+  scene.simulation.limits.substeps = 1;
+  const StepCost cheap = quietest(scene);
+  scene.simulation.limits.substeps = 64;
+  const StepCost dear = quietest(scene);
+  EXPECT_GT(dear.p99_ns, 50 * cheap.p99_ns) << "127 parts, where 64 cost 40 times as much";
 }
 
 TEST(Admission, lets_a_step_pass_that_fits_the_beat_or_its_budget) {
