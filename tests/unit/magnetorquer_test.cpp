@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "adstar/integrators/all.hpp"
+#include "adstar/propagator.hpp"
 #include "tests/support/random_motion.hpp"
 
 namespace adstar {
@@ -76,11 +78,37 @@ TEST(Magnetorquer, without_a_lag_switches_within_a_microsecond_after_an_edge) {
                                               2 * kSecond + 1000}));
   EXPECT_EQ(torquer.next_edge_after(std::numeric_limits<std::int64_t>::min()), kSecond);
   EXPECT_EQ(make(coils_of({1, 1, 1}, {}, 0)).next_edge_after(0), kNever);
-  // With one, the edges are the commands' own.
-  const auto lagging = make(coils_of({10, 10, 10}, {}, 0.1), {{kSecond, 2 * kSecond, {1, 0, 0}}});
-  EXPECT_EQ(lagging.next_edge_after(0), kSecond);
-  EXPECT_EQ(lagging.next_edge_after(kSecond), 2 * kSecond);
-  EXPECT_EQ(lagging.next_edge_after(2 * kSecond), kNever);
+}
+
+TEST(Magnetorquer, with_a_lag_ends_segments_at_commands_and_while_the_dipole_follows) {
+  const auto torquer = make(coils_of({10, 10, 10}, {}, 0.1), {{kSecond, 1'170'000'000, {1, 0, 0}}});
+  std::vector<std::int64_t> edges_ms;
+  for (std::int64_t t = torquer.next_edge_after(0); t != kNever; t = torquer.next_edge_after(t)) {
+    edges_ms.push_back(t / 1'000'000);
+  }
+  EXPECT_EQ(edges_ms, (std::vector<std::int64_t>{1000, 1050, 1100, 1150, 1170, 1220, 1270,
+                                                 1320, 1370, 1420, 1470, 1570, 1670, 1770,
+                                                 1970, 2170, 2470, 2870, 3370, 4170}));
+  EXPECT_EQ(make(coils_of({1, 1, 1}, {}, 0.1)).next_edge_after(0), kNever) << "nothing to follow";
+}
+
+/// A body too heavy to turn takes tau (T - lag (1 - e^(-T/lag))) while it is commanded and tau lag (1 - e^(-T/lag)) after.
+TEST(Magnetorquer, with_a_lag_a_hundredth_of_the_step_gives_its_impulse) {
+  const double lag = 1e-3, T = 0.53;
+  const std::vector<Torque<double>> torques{
+      make(coils_of({10, 10, 10}, {}, lag), {{kSecond / 2, 1'030'000'000, {5, 0, 0}}})};
+  const RigidBody<double> body(Eigen::Matrix3d(1e9 * Eigen::Matrix3d::Identity()));
+  const double tau = 5 * 3e-5;  // about -y
+  const auto impulse_at = [&](std::int64_t end_ns) {
+    State<double> state = make_state(Quat<double>{}, V{});
+    for (std::int64_t t = 0; t < end_ns; t += kSecond / 10) {
+      EXPECT_TRUE(
+          advance<CoadjointRk4>(body, state, std::span(torques), t, kSecond / 10).resolved());
+    }
+    return -state.H_I.value().y;
+  };
+  EXPECT_NEAR(impulse_at(kSecond), tau * (0.5 - lag), 1e-4 * tau * lag);
+  EXPECT_NEAR(impulse_at(2 * kSecond), tau * T, 1e-4 * tau * lag);
 }
 
 TEST(Magnetorquer, follows_with_its_lag_in_closed_form) {
