@@ -101,7 +101,7 @@ PointingRecord pointing(const Vehicle& vehicle, double t_s) noexcept {
   Quat<double> q_IO{};
   if (reference.orbit) {
     const OrbitMotion<double> motion = motion_at(*reference.orbit, t_s);
-    const OrbitalFrame<double> frame = orbital_frame(motion);
+    const OrbitalFrame<double> frame = orbital_frame_at(*reference.orbit, t_s);
     q_IO = frame.q_IO;
     const Quat<double> q_OB = Quat<double>{q_IO.w, -q_IO.x, -q_IO.y, -q_IO.z} * q_IB;
     record.flags |= kPointingOrbit;

@@ -159,6 +159,55 @@ TEST(SecularOrbit, drifts_as_the_flattened_earths_force_makes_an_orbit_drift) {
   EXPECT_NEAR((last - first) / (period * (kOrbits - 1)) / orbit.node_rate_rad_s, 1, 0.01);
 }
 
+/// Osculating: a, argument of latitude of the periapsis, mean argument of latitude (Vallado, 4th ed., algorithm 9).
+struct Osculating {
+  double a_m = 0, periapsis_rad = 0, latitude_rad = 0;
+};
+
+Osculating osculating(const Flattened& s) {
+  const double mu = kEarthGravity_m3_s2, d = norm(s.r);
+  const V h = cross(s.r, s.v), e = (1 / mu) * cross(s.v, h) - (1 / d) * s.r;
+  const V W = (1 / norm(h)) * h, N = (1 / std::hypot(h.x, h.y)) * V{-h.y, h.x, 0};
+  const auto angle = [&](const V& v) { return std::atan2(dot(v, cross(W, N)), dot(v, N)); };
+  const double a = 1 / (2 / d - squared_norm(s.v) / mu), ecc = norm(e);
+  const double nu = angle(s.r) - angle(e);
+  const double E = 2 * std::atan(std::sqrt((1 - ecc) / (1 + ecc)) * std::tan(0.5 * nu));
+  return {a, angle(e), angle(e) + E - ecc * std::sin(E)};
+}
+
+TEST(SecularOrbit, runs_and_turns_its_periapsis_as_the_flattened_earths_force_does) {
+  const OrbitElements<double> asked{7.2e6, 0.05, 0.9, 0.4, 0.7, 0};
+  const auto begin = motion_at(make_secular_orbit(asked), 0.0);
+  Flattened flown{begin.r_I, begin.v_I};
+  const double period = 2 * std::numbers::pi / make_secular_orbit(asked).anomaly_rate_rad_s;
+  constexpr int kPerOrbit = 600, kOrbits = 100;
+  struct Mean {
+    double a_m = 0, periapsis_rad = 0, latitude_rad = 0;
+  } first, last;
+  double latitude = 0;  // counted on
+  for (int k = 0; k < kPerOrbit * kOrbits; ++k) {
+    const Osculating now = osculating(flown);
+    latitude += std::remainder(now.latitude_rad - latitude, 2 * std::numbers::pi);
+    if (k < kPerOrbit || k >= kPerOrbit * (kOrbits - 1)) {
+      Mean& mean = k < kPerOrbit ? first : last;
+      mean.a_m += now.a_m / kPerOrbit;
+      mean.periapsis_rad += now.periapsis_rad / kPerOrbit;
+      mean.latitude_rad += latitude / kPerOrbit;
+    }
+    flown.step(period / kPerOrbit);
+  }
+  // The rates are those of the mean axis, which is not the one it began with.
+  OrbitElements<double> mean = asked;
+  mean.semi_major_axis_m = first.a_m;
+  const auto orbit = make_secular_orbit(mean);
+  const double time = period * (kOrbits - 1);
+  const double periapsis_rate = (last.periapsis_rad - first.periapsis_rad) / time;
+  EXPECT_NEAR(periapsis_rate / orbit.periapsis_rate_rad_s, 1, 0.02);
+  const double n = std::sqrt(mean.gravity_m3_s2 / first.a_m) / first.a_m;
+  const double beyond_kepler = (last.latitude_rad - first.latitude_rad) / time - n;
+  EXPECT_NEAR(beyond_kepler / (orbit.periapsis_rate_rad_s + orbit.anomaly_rate_rad_s - n), 1, 0.02);
+}
+
 Ephemeris<double> sampled(const Orbit<double>& orbit, double gap_s, int rows,
                           EphemerisMethod method, int degree, double begin_s = 0) {
   Ephemeris<double> table;

@@ -63,6 +63,30 @@ TEST(OrbitalFrame, turns_as_fast_as_it_says) {
               1e-14);
 }
 
+/// Against differences of O itself, whose plane J2 turns.
+TEST(OrbitalFrame, of_an_orbit_whose_plane_turns_turns_as_fast_as_it_says) {
+  const auto secular = make_secular_orbit<double>({7e6, 0.02, 0.9, 0.4, 0.7, 0.2});
+  Ephemeris<double> rows;
+  for (double t = 0; t <= 6000; t += 30) {
+    const OrbitMotion<double> m = motion_at(secular, t);
+    rows.rows.push_back({t, m.r_I, m.v_I});
+  }
+  constexpr double h = 0.5;
+  for (const Orbit<double>& orbit :
+       {Orbit<double>(secular), Orbit<double>(make_ephemeris(std::move(rows)))}) {
+    double largest = 0;
+    for (double t = 100; t < 5900; t += 171) {
+      const V turn =
+          rotation_vector(orbital_frame_at(orbit, t - h).q_IO, orbital_frame_at(orbit, t + h).q_IO);
+      const V omega = orbital_frame_at(orbit, t).omega_O;
+      EXPECT_LT(norm((0.5 / h) * turn - omega), 1e-9) << t;
+      largest = std::fmax(largest, std::fabs(omega.z));
+    }
+    EXPECT_NEAR(largest, 2 * std::fabs(secular.node_rate_rad_s) * std::sin(0.9), 2e-8);
+    EXPECT_GT(largest, 1e-6);
+  }
+}
+
 TEST(OrbitalFrame, without_a_plane_is_one_all_the_same) {
   for (const V& r : {V{7e6, 0, 0}, V{0, 0, 7e6}, V{1e6, 2e6, -6e6}}) {
     for (const V& v : {V{}, 1e-3 * r}) {

@@ -5,11 +5,13 @@
 // (Hughes, Spacecraft Attitude Dynamics, 1986, chapter 9; Wertz, Spacecraft Attitude Determination and Control, 1978,
 // section 2.2: roll, pitch and yaw turn about x, y and z of it).
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "adstar/arc.hpp"
 #include "adstar/attitude.hpp"
-#include "adstar/orbit/kepler.hpp"
+#include "adstar/orbit/orbit.hpp"
 #include "adstar/vec3.hpp"
 
 namespace adstar {
@@ -38,9 +40,8 @@ Quat<T> quaternion_from_columns(const Vec3<T>& x, const Vec3<T>& y, const Vec3<T
   return normalised(q);
 }
 
-/// omega_O = (0, -|r × v|/r², 0): exact where the force points to the centre (fixed and Kepler orbits). Where it does
-/// not, the turn of O about r that the change of the orbit's plane brings is neglected: Ω' sin i for J2, 1e-7 rad/s in
-/// a low orbit. At rest or straight up there is no forward: O's y axis is then square to r and I's z, or I's x.
+/// omega_O = (0, -|r × v|/r², 0), which is all of it where the force points to the centre (fixed and Kepler orbits);
+/// orbital_frame_at() has the rest. At rest or straight up there is no forward: O's y axis is then square to r and I's z, or I's x.
 template <class T>
 OrbitalFrame<T> orbital_frame(const OrbitMotion<T>& motion) {
   const T distance = norm(motion.r_I);
@@ -58,6 +59,39 @@ OrbitalFrame<T> orbital_frame(const OrbitMotion<T>& motion) {
   const Vec3<T> y = -normal, z = -up;
   return {quaternion_from_columns(cross(y, z), y, z),
           {T(0), -(twice_area / distance / distance), T(0)}};
+}
+
+namespace detail {
+
+/// v' [m/s²] by a difference over 2 s, or over what the span leaves of it.
+template <class T>
+Vec3<T> acceleration_at(const Orbit<T>& orbit, const T& t_s) {
+  using std::max;
+  using std::min;
+  const auto [first_s, last_s] = span_s(orbit);
+  const T begin = max(first_s, T(t_s - T(1))), end = min(last_s, T(t_s + T(1)));
+  return end > begin
+             ? (T(1) / (end - begin)) * (motion_at(orbit, end).v_I - motion_at(orbit, begin).v_I)
+             : Vec3<T>{};
+}
+
+}  // namespace detail
+
+/// O of an orbit at t. A force that does not point to the centre turns the orbit's plane, and O about r:
+///   omega_O = (0, -|h|/r², -(r/|h|) (v'·h/|h|)),   h = r × v
+/// (of v' = f r the last component is 0; J2: up to 2 |Ω'| sin i, some 1e-6 rad/s in a low orbit).
+template <class T>
+OrbitalFrame<T> orbital_frame_at(const Orbit<T>& orbit, const T& t_s) {
+  const OrbitMotion<T> motion = motion_at(orbit, t_s);
+  OrbitalFrame<T> frame = orbital_frame(motion);
+  const Vec3<T> h = cross(motion.r_I, motion.v_I);
+  const T h2 = squared_norm(h);
+  const bool central = std::holds_alternative<KeplerOrbit<T>>(orbit) ||
+                       std::holds_alternative<FixedPosition<T>>(orbit);
+  if (!central && h2 > T(0)) {
+    frame.omega_O.z = -(norm(motion.r_I) * dot(detail::acceleration_at(orbit, t_s), h) / h2);
+  }
+  return frame;
 }
 
 /// phi with R_to = R_from exp(phi), |phi| ≤ π [rad]: in the frame of `from` and in that of `to` alike. Quaternions of
