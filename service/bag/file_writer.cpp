@@ -62,7 +62,7 @@ void FileWriter::commit() {
 void FileWriter::close() {
   commit();
   insert_.clear();
-  database_.run("PRAGMA journal_mode=DELETE");
+  database_.leave_log();
 }
 
 std::uint64_t FileWriter::measured_bytes() const {

@@ -3,7 +3,8 @@
 // `messages`, index `timestamp_idx` (rosbag2_storage_default_plugins, sqlite_storage.cpp).
 //
 // Messages are kept in transactions over a write-ahead log: after kill -9 there is all that was
-// committed. close() merges the log, so that what is left is one plain file.
+// committed. close() merges the log, so that what is left is one plain file; where somebody reads it
+// just then, the log stays beside it until they close it.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@ class FileWriter {
   /// `topic`: its place in the list given. Begins a transaction when there is none.
   void add(std::size_t topic, std::int64_t received_ns, std::span<const std::byte> payload);
   void commit();
-  /// Commits, and leaves one file.
+  /// Commits, and leaves one file, whoever reads.
   void close();
 
   const FileInfo& info() const { return info_; }

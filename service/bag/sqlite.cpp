@@ -6,6 +6,8 @@
 namespace adstar::bag {
 namespace {
 
+constexpr int kPatience_ms = 2000;
+
 [[noreturn]] void fail(sqlite3* database, int code, const std::filesystem::path& file) {
   const int primary = code & 0xff;
   const char* const remedy =
@@ -72,6 +74,22 @@ void Statement::run() {
   check(sqlite3_reset(statement_.get()));
 }
 
+bool Statement::try_run() {
+  int code = SQLITE_ROW;
+  while (code == SQLITE_ROW) {
+    code = sqlite3_step(statement_.get());
+  }
+  if ((code & 0xff) == SQLITE_BUSY) {
+    sqlite3_reset(statement_.get());  // says the same once more
+    return false;
+  }
+  if (code != SQLITE_DONE) {
+    fail(database_, code, file_);
+  }
+  check(sqlite3_reset(statement_.get()));
+  return true;
+}
+
 std::int64_t Statement::number(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
 }
@@ -101,11 +119,17 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
   if (code != SQLITE_OK) {
     fail(made, code, file);
   }
-  constexpr int kPatience_ms = 2000;
   sqlite3_busy_timeout(made, kPatience_ms);
 }
 
 void Database::run(std::string_view sql) { prepare(sql).run(); }
+
+bool Database::leave_log() {
+  sqlite3_busy_timeout(database_.get(), 0);
+  const bool left = prepare("PRAGMA journal_mode=DELETE").try_run();
+  sqlite3_busy_timeout(database_.get(), kPatience_ms);
+  return left;
+}
 
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(database_.get()); }
 

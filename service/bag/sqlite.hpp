@@ -33,6 +33,8 @@ class Statement {
   bool step();
   /// Runs it to its end, ready to be bound anew.
   void run();
+  /// The same; false, and nothing is done, when another connection is in the way.
+  bool try_run();
 
   /// Of the present row; columns count from 0.
   std::int64_t number(int column) const;
@@ -57,6 +59,9 @@ class Database {
   Database(const std::filesystem::path& file, Mode mode);
 
   void run(std::string_view sql);
+  /// From a write-ahead log to one plain file. False when somebody else has it open: whoever closes it
+  /// last merges the log.
+  bool leave_log();
   Statement prepare(std::string_view sql) const { return {database_.get(), file_, sql}; }
   std::int64_t last_row() const;
   const std::filesystem::path& file() const { return file_; }

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -187,6 +188,37 @@ TEST_F(Bags, metadata_older_than_a_file_that_nobody_ended_is_made_anew) {
   EXPECT_TRUE(recording.was_unfinished());
   EXPECT_TRUE(recording.mend());
   EXPECT_NE(text_of("metadata.yaml").find("  message_count: 2"), std::string::npos);
+}
+
+TEST_F(Bags, whoever_reads_stops_neither_a_new_file_nor_the_end) {
+  RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 3 * kSecond});
+  struct HalfRead {
+    explicit HalfRead(const fs::path& path)
+        : file(path, Database::Mode::open), rows(file.prepare("SELECT data FROM messages")) {
+      EXPECT_TRUE(rows.step());
+    }
+    Database file;
+    Statement rows;
+  };
+  bag.add(0, 0, bytes(10, 0));
+  bag.add(0, kSecond, bytes(10, 1));
+  bag.commit();
+  std::optional<HalfRead> first(home_ / "bag" / "bag_0.db3");
+  bag.add(0, 3 * kSecond, bytes(10, 2));
+  bag.commit();
+  std::optional<HalfRead> second(home_ / "bag" / "bag_1.db3");
+  bag.add(0, 4 * kSecond, bytes(10, 3));
+  const Metadata& metadata = bag.finish();
+  ASSERT_EQ(metadata.files.size(), 2U);
+  EXPECT_EQ(metadata.messages(), 4U);
+  EXPECT_NE(text_of("metadata.yaml").find("message_count: 4"), std::string::npos);
+  EXPECT_EQ(read().size(), 4U) << "while they still read";
+  first.reset();
+  second.reset();
+  EXPECT_EQ(read().size(), 4U);
+  for (const char* name : {"bag_0.db3-wal", "bag_1.db3-wal"}) {
+    EXPECT_FALSE(fs::exists(home_ / "bag" / name)) << "merged by whoever closed last";
+  }
 }
 
 TEST_F(Bags, an_empty_recording_is_one) {
