@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <map>
 #include <memory>
-#include <optional>
 #include <set>
 
 #include <fmt/chrono.h>
@@ -12,6 +12,7 @@
 
 #include "service/adstar/failure.hpp"
 #include "service/adstar/joiner.hpp"
+#include "service/adstar/last_run.hpp"
 #include "service/adstar/output.hpp"
 #include "service/adstar/recording_input.hpp"
 #include "service/adstar/topic_rows.hpp"
@@ -119,57 +120,68 @@ void export_topic(const bag::Recording& recording, const TopicTable& table, Want
   say_unreadable(unreadable, kVerb);
 }
 
-/// The points of one spacecraft, in time. A daemon that began anew makes time run back: the last run is taken.
-std::vector<report::AttitudePoint> points_of(const bag::Recording& recording, Wanted& wanted) {
+using Runs = std::map<std::string, RunFinder, std::less<>>;
+
+/// Of every spacecraft that has attitudes.
+Runs runs_in(const bag::Recording& recording) {
+  Runs runs;
+  for_each_sample<adstar_AttitudeState>(
+      recording, [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
+        runs[std::string(dds::text_of(s.spacecraft))].add(s.time_ns);
+      });
+  return runs;
+}
+
+/// The last run of one spacecraft, in time.
+std::vector<report::AttitudePoint> points_of(const bag::Recording& recording,
+                                             const std::string& spacecraft, const RunSpan& run) {
   std::vector<report::AttitudePoint> points;
-  std::size_t dropped = 0;
+  RunReader reader(run);
   const auto add = [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
-    if (!wanted(dds::text_of(s.spacecraft))) {
-      return;
-    }
-    if (!points.empty() && s.time_ns < points.back().time_ns) {
-      dropped += points.size();
-      points.clear();
-    }
-    if (points.empty() || s.time_ns > points.back().time_ns) {
+    if (dds::text_of(s.spacecraft) == spacecraft && reader.takes(s.time_ns)) {
       const adstar_Quaternion& q = s.attitude_body_to_inertial;
       const adstar_Vector3& omega = s.angular_velocity_body_rad_s;
       points.push_back({s.time_ns, {q.w, q.x, q.y, q.z}, {omega.x, omega.y, omega.z}});
     }
   };
   say_unreadable(for_each_sample<adstar_AttitudeState>(recording, add), kVerb);
-  if (dropped > 0) {
+  if (reader.before() > 0) {
     fmt::print(
         stderr,
         "adstar export: simulation time began anew in this recording; the last run is exported, "
         "{} attitudes before it are not\n",
-        dropped);
+        reader.before());
+  }
+  if (reader.older() > 0) {
+    fmt::print(stderr,
+               "adstar export: attitudes left out, older than those said before them: {}; a daemon "
+               "took over, or had stood still\n",
+               reader.older());
   }
   return points;
 }
 
 /// The one asked for, or the only one there is.
-std::string only_spacecraft(const bag::Recording& recording, const Options& options) {
+std::string only_spacecraft(const Runs& runs, const Options& options) {
   if (options.spacecraft.size() > 1) {
     throw Failure(kUsage, "an AEM is about one spacecraft; give one --spacecraft");
   }
   Wanted wanted(options.spacecraft);
-  for_each_sample<adstar_AttitudeState>(
-      recording, [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
-        wanted(dds::text_of(s.spacecraft));
-      });
+  for (const auto& [spacecraft, run] : runs) {
+    wanted(spacecraft);
+  }
   wanted.require_all_seen();
-  if (wanted.seen().empty()) {
+  if (runs.empty()) {
     throw Failure(kUsage,
                   "there is no attitude_state in the recording; was it left out by --topic?");
   }
-  if (options.spacecraft.empty() && wanted.seen().size() > 1) {
+  if (options.spacecraft.empty() && runs.size() > 1) {
     const std::vector<std::string_view> known(wanted.seen().begin(), wanted.seen().end());
     throw Failure(kUsage, fmt::format("an AEM is about one spacecraft, and there are {}; give one "
                                       "--spacecraft",
                                       scene::joined(known)));
   }
-  return options.spacecraft.empty() ? *wanted.seen().begin() : options.spacecraft.front();
+  return options.spacecraft.empty() ? runs.begin()->first : options.spacecraft.front();
 }
 
 scene::TaiDate epoch_of(const Options& options) {
@@ -191,14 +203,15 @@ scene::TaiDate epoch_of(const Options& options) {
 void export_aem(const bag::Recording& recording, const Options& options, Output& output) {
   report::AemHeader header;
   header.epoch = epoch_of(options);
-  header.object_name = only_spacecraft(recording, options);
+  const Runs runs = runs_in(recording);
+  header.object_name = only_spacecraft(runs, options);
   header.object_id = options.object_id;
   header.originator = options.originator;
   header.inertial_frame = options.frame;
   header.creation_utc = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::time(nullptr)));
-  Wanted wanted({header.object_name});
+  const RunSpan run = runs.at(header.object_name).last_run();
   try {
-    output.buffer() = report::aem_text(header, points_of(recording, wanted));
+    output.buffer() = report::aem_text(header, points_of(recording, header.object_name, run));
   } catch (const std::invalid_argument& error) {
     throw Failure(kFailed, error.what());
   }

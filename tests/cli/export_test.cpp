@@ -1,0 +1,47 @@
+// Recordings that were made up, exported: what a daemon says twice, late, or anew.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/made_recording.hpp"
+#include "tests/support/aem_parser.hpp"
+
+namespace adstar::testing {
+namespace {
+
+Outcome export_aem(const MadeRecording& recording, std::vector<std::string> more = {}) {
+  std::vector<std::string> words{"export", recording.directory(), "--to",
+                                 "aem",    "--epoch-utc",         "2026-01-01T00:00:00Z"};
+  words.insert(words.end(), more.begin(), more.end());
+  return client(words);
+}
+
+TEST(ExportAem, goes_on_after_a_daemon_that_had_stood_still_said_something_old) {
+  MadeRecording recording;
+  recording.fly(1, 500);
+  recording.add(attitude_at(347));
+  recording.fly(501, 600);
+  recording.finish();
+  const Outcome aem = export_aem(recording);
+  ASSERT_EQ(aem.code, 0) << aem.err;
+  EXPECT_EQ(parse_aem(aem.out).lines.size(), 600U);
+  EXPECT_EQ(aem.err.find("began anew"), std::string::npos) << aem.err;
+  EXPECT_NE(aem.err.find("older than those said before them: 1;"), std::string::npos) << aem.err;
+}
+
+TEST(ExportAem, is_of_the_last_run_where_a_daemon_began_anew) {
+  MadeRecording recording;
+  recording.fly(1, 500);
+  recording.fly(1, 300);
+  recording.finish();
+  const Outcome aem = export_aem(recording);
+  ASSERT_EQ(aem.code, 0) << aem.err;
+  const Aem read = parse_aem(aem.out);
+  EXPECT_EQ(read.lines.size(), 300U);
+  EXPECT_EQ(read.of("STOP_TIME"), "2026-01-01T00:00:03.000000000");
+  EXPECT_NE(aem.err.find("500 attitudes before it are not"), std::string::npos) << aem.err;
+}
+
+}  // namespace
+}  // namespace adstar::testing
