@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -37,15 +38,23 @@ std::uint64_t Metadata::messages() const {
 }
 
 std::int64_t Metadata::first_ns() const {
-  const auto file =
-      std::find_if(files.begin(), files.end(), [](const FileInfo& f) { return f.messages > 0; });
-  return file == files.end() ? 0 : file->first_ns;
+  std::optional<std::int64_t> first;
+  for (const FileInfo& file : files) {
+    if (file.messages > 0) {
+      first = std::min(first.value_or(file.first_ns), file.first_ns);
+    }
+  }
+  return first.value_or(0);
 }
 
 std::int64_t Metadata::last_ns() const {
-  const auto file =
-      std::find_if(files.rbegin(), files.rend(), [](const FileInfo& f) { return f.messages > 0; });
-  return file == files.rend() ? 0 : file->last_ns;
+  std::optional<std::int64_t> last;
+  for (const FileInfo& file : files) {
+    if (file.messages > 0) {
+      last = std::max(last.value_or(file.last_ns), file.last_ns);
+    }
+  }
+  return last.value_or(0);
 }
 
 std::string to_yaml(const Metadata& m) {

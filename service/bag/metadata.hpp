@@ -33,7 +33,7 @@ struct Metadata {
   std::vector<FileInfo> files;
 
   std::uint64_t messages() const;
-  /// Of the files that have messages; 0 when none has.
+  /// The least and the greatest of the files that have messages; 0 when none has.
   std::int64_t first_ns() const;
   std::int64_t last_ns() const;
 };

@@ -80,7 +80,7 @@ void Recording::for_each(const std::vector<std::string>& topics,
     }
     Statement messages = database.prepare(
         fmt::format("SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({}) "
-                    "ORDER BY timestamp, id",
+                    "ORDER BY id",
                     wanted));
     while (messages.step()) {
       use({names.at(messages.number(0)), messages.number(1), messages.bytes(2)});

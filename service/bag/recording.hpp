@@ -1,6 +1,7 @@
 #pragma once
-// A recording read back: every message in the order of its reception, over all files. The files are
-// what counts; a metadata.yaml that a killed recorder left unwritten is made from them.
+// A recording read back: every message in the order of its reception, over all files. That order is the
+// rows'; timestamps run back where the clock is set back. The files are what counts; a metadata.yaml that a
+// killed recorder left unwritten is made from them.
 
 #include <cstddef>
 #include <cstdint>

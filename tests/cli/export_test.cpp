@@ -1,7 +1,6 @@
 // Recordings that were made up, exported: what a daemon says twice, late, or anew.
 
-#include <algorithm>
-
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/cli/made_recording.hpp"
@@ -15,6 +14,23 @@ Outcome export_aem(const MadeRecording& recording, std::vector<std::string> more
                                  "aem",    "--epoch-utc",         "2026-01-01T00:00:00Z"};
   words.insert(words.end(), more.begin(), more.end());
   return client(words);
+}
+
+TEST(Export, keeps_rows_whole_and_in_their_order_though_the_clock_was_set_back) {
+  MadeRecording recording;
+  recording.fly(1, 300);
+  recording.now_ns -= 400'000'000;
+  recording.fly(301, 600);
+  recording.finish();
+  const Outcome csv = client({"export", recording.directory(), "--to", "csv"});
+  ASSERT_EQ(csv.code, 0) << csv.err;
+  const auto lines = lines_of(csv.out);
+  ASSERT_EQ(lines.size(), 601U);
+  for (std::size_t step = 1; step <= 600; ++step) {
+    EXPECT_EQ(lines[step].rfind(fmt::format("sat1,{},", step), 0), 0U) << lines[step];
+    EXPECT_EQ(lines[step].find(",,"), std::string::npos) << lines[step];
+  }
+  EXPECT_EQ(parse_aem(export_aem(recording).out).lines.size(), 600U);
 }
 
 TEST(ExportAem, goes_on_after_a_daemon_that_had_stood_still_said_something_old) {

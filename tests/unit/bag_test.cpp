@@ -80,6 +80,21 @@ TEST_F(Bags, what_was_written_is_read_in_its_order_over_all_files) {
   EXPECT_TRUE(read({"/never"}).empty());
 }
 
+TEST_F(Bags, what_was_written_is_read_in_its_order_though_the_clock_was_set_back) {
+  RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 3 * kSecond});
+  for (int i = 0; i < 10; ++i) {
+    bag.add(0, (i < 5 ? 100 + i : 90 + i) * kSecond, bytes(1, i));
+  }
+  const Metadata& metadata = bag.finish();
+  EXPECT_EQ(metadata.first_ns(), 95 * kSecond);
+  EXPECT_EQ(metadata.last_ns(), 104 * kSecond);
+  const auto all = read();
+  ASSERT_EQ(all.size(), 10U);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(all[static_cast<std::size_t>(i)].payload, bytes(1, i));
+  }
+}
+
 TEST_F(Bags, a_file_spans_no_longer_than_it_may) {
   RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 3 * kSecond});
   for (int i = 0; i < 7; ++i) {
