@@ -205,6 +205,31 @@ TEST(Metrics, say_when_a_daemon_has_fallen_silent) {
   EXPECT_NE(text.find("adstar_up{service=\"fly\"} 0\n"), std::string::npos);
 }
 
+TEST(Metrics, miss_a_daemon_that_went_without_a_word) {
+  const std::string up = "adstar_up{service=\"fly\"} ";
+  const auto has = [&](const Board& board, Clock::time_point now, const char* value) {
+    return metrics_text(board, now).find(up + value + "\n") != std::string::npos;
+  };
+  Board board;
+  board.learn(status(1), kNow);
+  board.forget_service("fly", kNow);
+  EXPECT_TRUE(has(board, kNow, "0")) << metrics_text(board, kNow);
+  EXPECT_TRUE(has(board, kNow + std::chrono::seconds(599), "0"));
+  EXPECT_FALSE(has(board, kNow + std::chrono::seconds(600), "0"));
+  board.learn(status(1), kNow + std::chrono::seconds(1));
+  EXPECT_TRUE(has(board, kNow + std::chrono::seconds(1), "1"));
+  EXPECT_FALSE(has(board, kNow + std::chrono::seconds(1), "0"));
+}
+
+TEST(Metrics, do_not_miss_a_daemon_that_said_that_it_ends) {
+  Board board;
+  adstar_ServiceStatus last = status(1);
+  last.state = adstar_SERVICE_STOPPED;
+  board.learn(last, kNow);
+  board.forget_service("fly", kNow);
+  EXPECT_EQ(metrics_text(board, kNow).find("adstar_up"), std::string::npos);
+}
+
 TEST(Metrics, escape_what_would_end_a_label) {
   Board board;
   adstar_ServiceStatus sample = status(1);

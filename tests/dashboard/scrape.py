@@ -65,7 +65,8 @@ def main():
             partition = f"scrape-{Path(home).name}"
             scene = Path(home) / "scene.toml"
             scene.write_text(SCENE.format(partition=partition))
-            running.append(subprocess.Popen([programs / "adstard", scene], stderr=subprocess.DEVNULL))
+            daemon = subprocess.Popen([programs / "adstard", scene], stderr=subprocess.DEVNULL)
+            running.append(daemon)
             board = subprocess.Popen([programs / "adstar", "dashboard", "--port", "0", "--partition", partition],
                                      stdout=subprocess.PIPE, text=True)
             running.append(board)
@@ -92,6 +93,11 @@ def main():
             rules = until("alerts", lambda: asked(own, "/api/v1/rules")["groups"])[0]["rules"]
             bad = [rule["name"] for rule in rules if rule["health"] == "err"]
             assert not bad, f"alerts that do not work: {bad}"
+            daemon.kill()
+            until("alert of a daemon that was killed",
+                  lambda: value('ALERTS{alertname="AdstarSilent",alertstate="firing",service="scraped"}'))
+            running.append(subprocess.Popen([programs / "adstard", scene], stderr=subprocess.DEVNULL))
+            until("end of that alert", lambda: value('adstar_up{service="scraped"}') == 1)
             print(f"scraped; {len(rules)} alerts")
         finally:
             for process in reversed(running):

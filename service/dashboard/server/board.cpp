@@ -90,6 +90,7 @@ void Board::learn(const adstar_ServiceStatus& sample, Clock::time_point now) {
   if (ServiceRecord* service = entry(services_, name_in(sample.service), kMostServices)) {
     service->status = sample;
     service->heard = now;
+    missed_.erase(name_in(sample.service));
   }
 }
 
@@ -159,7 +160,28 @@ void Board::forget_fleet(std::string_view service, std::uint32_t chunk) {
   }
 }
 
-void Board::forget_service(std::string_view name) { services_.erase(printable(name)); }
+void Board::forget_service(std::string_view name, Clock::time_point now) {
+  const auto found = services_.find(printable(name));
+  if (found == services_.end()) {
+    return;
+  }
+  const auto& status = found->second.status;
+  std::erase_if(missed_, [&](const auto& missed) { return now - missed.second >= kMissedFor; });
+  if (!(status && status->state == adstar_SERVICE_STOPPED) && missed_.size() < kMostServices) {
+    missed_.insert_or_assign(found->first, now);
+  }
+  services_.erase(found);
+}
+
+std::vector<std::string> Board::missed_services(Clock::time_point now) const {
+  std::vector<std::string> names;
+  for (const auto& [name, since] : missed_) {
+    if (now - since < kMissedFor && !services_.contains(name)) {
+      names.push_back(name);
+    }
+  }
+  return names;
+}
 
 void Board::forget_roster(std::string_view name, std::uint64_t instance_high,
                           std::uint64_t instance_low) {

@@ -66,6 +66,7 @@ struct Member {
 class Board {
  public:
   static constexpr std::size_t kMostVerdicts = 200;
+  static constexpr std::chrono::minutes kMissedFor{10};
 
   void learn(const adstar_AttitudeState& sample, Clock::time_point now);
   void learn(const adstar_MomentumState& sample, Clock::time_point now);
@@ -79,7 +80,8 @@ class Board {
   /// Its last writer has gone.
   void forget_spacecraft(std::string_view name);
   void forget_fleet(std::string_view service, std::uint32_t chunk);
-  void forget_service(std::string_view name);
+  /// It is missed from then on, unless its last word was that it ends.
+  void forget_service(std::string_view name, Clock::time_point now);
   /// Of that process; one that has taken its name since stays.
   void forget_roster(std::string_view service, std::uint64_t instance_high,
                      std::uint64_t instance_low);
@@ -108,6 +110,8 @@ class Board {
   }
 
   const std::map<std::string, ServiceRecord, std::less<>>& services() const { return services_; }
+  /// Those that went without a word within the last `kMissedFor`, and have not come back.
+  std::vector<std::string> missed_services(Clock::time_point now) const;
   const std::map<std::string, Motion, std::less<>>& own_topics() const { return own_; }
   const std::deque<VerdictEntry>& verdicts() const { return verdicts_; }
   /// By service, then by the value of adstar_Verdict.
@@ -129,7 +133,8 @@ class Board {
                                   std::string_view name) const;
 
   std::map<std::string, ServiceRecord, std::less<>> services_;
-  std::map<std::string, Motion, std::less<>> own_;  ///< by name of the spacecraft
+  std::map<std::string, Clock::time_point, std::less<>> missed_;  ///< since when
+  std::map<std::string, Motion, std::less<>> own_;                ///< by name of the spacecraft
   std::map<std::string, std::map<std::uint32_t, Chunk>, std::less<>> fleets_;
   std::map<std::string, Roster, std::less<>> rosters_;
   std::map<std::string, std::pair<std::string, std::uint32_t>, std::less<>> places_;

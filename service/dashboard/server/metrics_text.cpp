@@ -84,12 +84,16 @@ class Writer {
   using Status = adstar_ServiceStatus;
   using Timing = adstar_StepTiming;
 
+  static std::string service_label(const std::string& service) {
+    return fmt::format("service=\"{}\"", escaped(service));
+  }
+
   /// add(metric, service label, record) for every service.
   template <class Add>
   void metric(const char* name, const char* type, const char* help, Add&& add) {
     Metric metric(text_, name, type, help);
     for (const auto& [service, record] : board_.services()) {
-      add(metric, fmt::format("service=\"{}\"", escaped(service)), record);
+      add(metric, service_label(service), record);
     }
   }
   template <class Value>
@@ -110,10 +114,15 @@ class Writer {
   }
 
   void of_services() {
-    metric("adstar_up", "gauge", "1 while the daemon was heard within the last 3 seconds.",
-           [&](Metric& out, const std::string& labels, const ServiceRecord& r) {
-             out.add(labels, now_ - r.heard < kSilent ? "1" : "0");
-           });
+    Metric up(text_, "adstar_up", "gauge",
+              "1 while the daemon was heard within the last 3 seconds; 0 for ten minutes after it "
+              "went without a word.");
+    for (const auto& [service, record] : board_.services()) {
+      up.add(service_label(service), now_ - record.heard < kSilent ? "1" : "0");
+    }
+    for (const std::string& service : board_.missed_services(now_)) {
+      up.add(service_label(service), "0");
+    }
     metric("adstar_running", "gauge", "1 while the daemon's clock runs.",
            [&](Metric& out, const std::string& labels, const ServiceRecord& r) {
              if (r.status) {
