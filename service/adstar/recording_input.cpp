@@ -18,13 +18,21 @@ void add_recording(CLI::App& verb, std::string& directory) {
 bag::Recording open_recording(const std::string& directory, const char* verb) {
   try {
     bag::Recording recording(directory);
-    if (recording.was_unfinished()) {
-      fmt::print(stderr,
-                 "adstar {}: '{}' was not ended: it is still recorded, or its recorder was killed; "
-                 "metadata.yaml {}\n",
-                 verb, directory,
-                 recording.mend() ? "was made from its files"
-                                  : "cannot be written there, which does not matter here");
+    switch (recording.ending()) {
+      case bag::Recording::Ending::ended:
+        break;
+      case bag::Recording::Ending::still_recorded:
+        fmt::print(stderr,
+                   "adstar {}: '{}' is still being recorded; this is what was committed so far\n",
+                   verb, directory);
+        break;
+      case bag::Recording::Ending::cut_off:
+        fmt::print(stderr,
+                   "adstar {}: '{}' was not ended: was its recorder killed? metadata.yaml {}\n",
+                   verb, directory,
+                   recording.mend() ? "was made from its files"
+                                    : "cannot be written there, which does not matter here");
+        break;
     }
     return recording;
   } catch (const bag::Error& error) {

@@ -18,7 +18,7 @@ namespace adstar::cli {
 /// The positional RECORDING.
 void add_recording(CLI::App& verb, std::string& directory);
 
-/// Opens it, and writes its metadata.yaml where a killed recorder could not. Throws Failure.
+/// Opens it, says when nobody has ended it, and writes its metadata.yaml where a killed recorder could not. Throws Failure.
 bag::Recording open_recording(const std::string& directory, const char* verb);
 
 /// Calls use(const T&, received_ns) for each sample of T, in order; returns how many could not be read.

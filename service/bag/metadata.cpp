@@ -4,6 +4,7 @@
 #include <fstream>
 #include <numeric>
 #include <optional>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -102,21 +103,24 @@ std::string to_yaml(const Metadata& m) {
 
 void write_metadata(const Metadata& metadata, const std::filesystem::path& directory) {
   const auto target = directory / kMetadataName;
-  const auto part = directory / ".metadata.yaml.part";
-  std::error_code renamed;
+  const auto part = directory / fmt::format(".{}.{}.part", kMetadataName, getpid());
+  bool written = false;
   {
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     out << to_yaml(metadata);
     out.flush();
-    if (out) {
-      std::filesystem::rename(part, target, renamed);
-    }
-    if (!out || renamed) {
-      throw Error(
-          fmt::format("cannot write '{}'; make room, or choose a directory that you may "
-                      "write to",
-                      target.string()));
-    }
+    written = static_cast<bool>(out);
+  }
+  std::error_code renamed;
+  if (written) {
+    std::filesystem::rename(part, target, renamed);
+  }
+  if (!written || renamed) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw Error(
+        fmt::format("cannot write '{}'; make room, or choose a directory that you may write to",
+                    target.string()));
   }
 }
 

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 #include <map>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "service/bag/directory_lock.hpp"
 #include "service/bag/sqlite.hpp"
 
 namespace adstar::bag {
@@ -44,8 +48,20 @@ std::vector<fs::path> files_in(const fs::path& directory) {
   return files;
 }
 
-/// Its recorder has not closed it.
-bool has_log(const fs::path& file) { return fs::exists(file.string() + "-wal"); }
+/// What metadata.yaml says is in all files; nothing when there is none.
+std::optional<std::uint64_t> messages_told(const fs::path& directory) {
+  constexpr std::string_view kKey = "  message_count: ";
+  std::ifstream file(directory / kMetadataName);
+  std::uint64_t count = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with(kKey) &&
+        std::from_chars(line.data() + kKey.size(), line.data() + line.size(), count).ec ==
+            std::errc{}) {
+      return count;
+    }
+  }
+  return std::nullopt;
+}
 
 /// False where a recorder was killed while it began the file: nothing is in it.
 bool is_laid_out(const Database& database) {
@@ -57,10 +73,7 @@ bool is_laid_out(const Database& database) {
 }  // namespace
 
 Recording::Recording(const fs::path& directory)
-    : directory_(directory),
-      files_(files_in(directory)),
-      unfinished_(!fs::exists(directory / kMetadataName) ||
-                  std::any_of(files_.begin(), files_.end(), &has_log)) {}
+    : directory_(directory), files_(files_in(directory)) {}
 
 void Recording::for_each(const std::vector<std::string>& topics,
                          const std::function<void(const Message&)>& use) const {
@@ -122,7 +135,31 @@ Metadata Recording::count() const {
   return metadata;
 }
 
+Recording::Ending Recording::ending() const {
+  if (DirectoryLock(directory_, DirectoryLock::Kind::mender).refused()) {
+    return Ending::still_recorded;
+  }
+  const auto told = messages_told(directory_);
+  if (!told) {
+    return Ending::cut_off;
+  }
+  std::uint64_t there = 0;
+  for (const fs::path& path : files_) {
+    const Database database(path, Database::Mode::open);
+    if (is_laid_out(database)) {
+      Statement messages = database.prepare("SELECT COUNT(*) FROM messages");
+      messages.step();
+      there += static_cast<std::uint64_t>(messages.number(0));
+    }
+  }
+  return there == *told ? Ending::ended : Ending::cut_off;
+}
+
 bool Recording::mend() const {
+  const DirectoryLock lock(directory_, DirectoryLock::Kind::mender);
+  if (lock.refused()) {
+    return false;
+  }
   const Metadata metadata = count();
   try {
     write_metadata(metadata, directory_);

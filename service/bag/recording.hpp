@@ -33,15 +33,19 @@ class Recording {
   /// Counted from the files.
   Metadata count() const;
 
-  /// Nobody had ended it when this was opened: no metadata.yaml, or a file's log stands beside it.
-  bool was_unfinished() const { return unfinished_; }
-  /// Writes it from what the files have; false when it cannot be written there.
+  enum class Ending {
+    ended,
+    still_recorded,
+    cut_off,  ///< no metadata.yaml, or one that does not have what the files have
+  };
+  Ending ending() const;
+  /// Writes metadata.yaml from what the files have; false when it cannot be written there, or is its
+  /// recorder's to write.
   bool mend() const;
 
  private:
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> files_;
-  bool unfinished_ = false;
 };
 
 }  // namespace adstar::bag

@@ -30,6 +30,7 @@ RollingWriter::RollingWriter(const fs::path& directory, std::vector<TopicInfo> t
     directory_ = directory_.parent_path();  // "name/"
   }
   make_directory(directory_);
+  lock_.emplace(directory_, DirectoryLock::Kind::recorder);
   for (const TopicInfo& topic : topics_) {
     metadata_.topics.push_back({topic, 0});
   }
@@ -75,6 +76,7 @@ const Metadata& RollingWriter::finish() {
   metadata_.files.push_back(file_->info());
   file_.reset();
   write_metadata(metadata_, directory_);
+  lock_.reset();
   return metadata_;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// A recording directory: NAME_0.db3, NAME_1.db3, ... and metadata.yaml once it is finished.
+// A recording directory: NAME_0.db3, NAME_1.db3, ... and metadata.yaml once it is finished. Its writer
+// holds the directory's lock, so that no reader writes a metadata.yaml of its own meanwhile.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "service/bag/directory_lock.hpp"
 #include "service/bag/file_writer.hpp"
 #include "service/bag/metadata.hpp"
 
@@ -28,7 +30,7 @@ class RollingWriter {
 
   void add(std::size_t topic, std::int64_t received_ns, std::span<const std::byte> payload);
   void commit();
-  /// Closes the file and writes metadata.yaml.
+  /// Closes the file, writes metadata.yaml and lets go of the directory.
   const Metadata& finish();
 
  private:
@@ -38,6 +40,7 @@ class RollingWriter {
   std::filesystem::path directory_;
   std::vector<TopicInfo> topics_;
   Rolling rolling_;
+  std::optional<DirectoryLock> lock_;
   Metadata metadata_;  ///< of the files that are closed, and all counts
   std::unique_ptr<FileWriter> file_;
 };

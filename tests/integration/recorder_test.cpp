@@ -46,6 +46,33 @@ TEST(Recorder, killed_leaves_a_recording_that_reads) {
   EXPECT_EQ(daemon.stop(), 0);
 }
 
+TEST(Recorder, is_exported_while_it_records_and_ends_as_if_it_were_not) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const std::string bag = (home.path() / "bag").string();
+  Daemon daemon(testing::paper_scene(corner, {}));
+  Listener listener(corner);
+  ASSERT_TRUE(listener.hear(5)) << daemon.log();
+  Process recorder(at_place({"record", bag, "--max-duration", "3s"}, corner));
+  ASSERT_TRUE(has_begun(recorder)) << recorder.err();
+  ASSERT_TRUE(listener.hear(75));  // more than a commit, less than a file
+  const bag::Database reader(bag + "/bag_0.db3", bag::Database::Mode::open);
+  auto rows = reader.prepare("SELECT data FROM messages");
+  ASSERT_TRUE(rows.step());
+  const Outcome live = client({"export", bag, "--to", "csv"});
+  EXPECT_EQ(live.code, 0) << live.err;
+  EXPECT_NE(live.err.find("is still being recorded"), std::string::npos) << live.err;
+  EXPECT_FALSE(fs::exists(bag + "/metadata.yaml"));
+  ASSERT_TRUE(listener.hear(120));
+  recorder.send(SIGINT);
+  EXPECT_EQ(recorder.wait(), 0) << recorder.err();
+  const Outcome ended = client({"export", bag, "--to", "csv"});
+  EXPECT_EQ(ended.err, "");
+  EXPECT_GT(ended.out.size(), live.out.size());
+  EXPECT_TRUE(ended.out.starts_with(live.out.substr(0, live.out.size() / 2)));
+  EXPECT_EQ(daemon.stop(), 0);
+}
+
 TEST(Recorder, that_stands_still_holds_nobody_up) {
   const auto corner = testing::private_corner();
   const TemporaryDirectory home;

@@ -183,10 +183,10 @@ TEST_F(Bags, lost_metadata_is_made_anew_from_the_files_to_the_letter) {
   }
   bag.finish();
   const std::string before = text_of("metadata.yaml");
-  EXPECT_FALSE(Recording(home_ / "bag").was_unfinished());
+  EXPECT_EQ(Recording(home_ / "bag").ending(), Recording::Ending::ended);
   fs::remove(home_ / "bag" / "metadata.yaml");
   const Recording recording(home_ / "bag");
-  EXPECT_TRUE(recording.was_unfinished());
+  EXPECT_EQ(recording.ending(), Recording::Ending::cut_off);
   EXPECT_TRUE(recording.mend());
   EXPECT_EQ(text_of("metadata.yaml"), before);
 }
@@ -200,9 +200,37 @@ TEST_F(Bags, metadata_older_than_a_file_that_nobody_ended_is_made_anew) {
   file.add(0, 2, bytes(3, 2));
   file.commit();
   const Recording recording(home_ / "bag");
-  EXPECT_TRUE(recording.was_unfinished());
+  EXPECT_EQ(recording.ending(), Recording::Ending::cut_off);
   EXPECT_TRUE(recording.mend());
   EXPECT_NE(text_of("metadata.yaml").find("  message_count: 2"), std::string::npos);
+}
+
+TEST_F(Bags, metadata_of_a_recording_that_goes_on_is_its_recorders_to_write) {
+  std::optional<RollingWriter> bag(writer());
+  bag->add(0, 1, bytes(3, 1));
+  bag->commit();
+  const Recording recording(home_ / "bag");
+  EXPECT_EQ(recording.ending(), Recording::Ending::still_recorded);
+  EXPECT_FALSE(recording.mend());
+  EXPECT_FALSE(fs::exists(home_ / "bag" / "metadata.yaml"));
+  bag.reset();  // as a kill leaves it
+  EXPECT_EQ(recording.ending(), Recording::Ending::cut_off);
+  EXPECT_TRUE(recording.mend());
+  EXPECT_EQ(recording.ending(), Recording::Ending::ended);
+}
+
+TEST_F(Bags, metadata_that_tells_less_than_the_files_have_is_made_anew) {
+  RollingWriter bag = writer();
+  bag.add(0, 1, bytes(3, 1));
+  bag.finish();
+  const Recording recording(home_ / "bag");
+  EXPECT_EQ(recording.ending(), Recording::Ending::ended);
+  {
+    Database file(home_ / "bag" / "bag_0.db3", Database::Mode::open);
+    file.run("INSERT INTO messages (topic_id, timestamp, data) VALUES (1, 2, x'00')");
+  }
+  EXPECT_FALSE(fs::exists(home_ / "bag" / "bag_0.db3-wal"));
+  EXPECT_EQ(recording.ending(), Recording::Ending::cut_off);
 }
 
 TEST_F(Bags, whoever_reads_stops_neither_a_new_file_nor_the_end) {
