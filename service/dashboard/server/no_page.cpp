@@ -1,4 +1,4 @@
-// Stands for the page in a build without npm.
+// Stands for the page in a build without npm, or without its registry.
 
 #include "service/dashboard/server/page.hpp"
 

@@ -12,7 +12,7 @@ struct PageFile {
   std::string_view bytes;
 };
 
-/// Empty: built without the page (ADSTAR_BUILD_DASHBOARD=OFF).
+/// Empty: built without the page (choose_page.cmake).
 std::span<const PageFile> page_files();
 
 }  // namespace adstar::dashboard

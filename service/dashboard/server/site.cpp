@@ -29,10 +29,11 @@ constexpr std::size_t kLongestBody = 4096;
 constexpr const char* kText = "text/plain; charset=utf-8";
 constexpr const char* kJson = "application/json";
 constexpr const char* kWithoutPage =
-    "This adstar was built without the page: npm was not found, or ADSTAR_BUILD_DASHBOARD was "
-    "OFF.\n"
-    "/events, /fleet and /metrics are served. For the page, install nodejs and npm and build "
-    "again.\n";
+    "This adstar was built without the page: npm or its registry was out of reach, or "
+    "ADSTAR_BUILD_DASHBOARD was OFF.\n"
+    "/events, /fleet and /metrics are served. For the page, install nodejs and npm, configure "
+    "with\n"
+    "-DADSTAR_BUILD_DASHBOARD=ON and build again: what is missing is then said.\n";
 
 Provenance provenance_of(const httplib::Request& request) {
   return {request.get_header_value("Host"), request.get_header_value("Origin"),

@@ -39,7 +39,8 @@ int serve(const Options& options) {
   if (dashboard::page_files().empty()) {
     fmt::print(stderr,
                "adstar dashboard: built without the page, only /events, /fleet and /metrics are "
-               "served; install nodejs and npm, and build again\n");
+               "served; for the page, install nodejs and npm, configure with "
+               "-DADSTAR_BUILD_DASHBOARD=ON and build again\n");
   }
   fmt::print("http://127.0.0.1:{}/ shows {}; {}\n", site.port(), place_of(options.place),
              options.allow_commands ? "whoever uses this machine can command"
