@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <httplib.h>
 #include <stdexcept>
 #include <sys/socket.h>
 
@@ -13,6 +12,7 @@
 #include "service/adstar/failure.hpp"
 #include "service/dashboard/server/door.hpp"
 #include "service/dashboard/server/frame_json.hpp"
+#include "service/dashboard/server/limited_server.hpp"
 #include "service/dashboard/server/metrics_text.hpp"
 #include "service/dashboard/server/page.hpp"
 
@@ -66,7 +66,7 @@ Site::Site(const Bus& bus, PulseDesk& desk, Options options)
     : bus_(bus),
       desk_(desk),
       options_(std::move(options)),
-      server_(std::make_unique<httplib::Server>()) {
+      server_(std::make_unique<LimitedServer>(ending_)) {
   server_->new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   // The library would share the port with a second dashboard (SO_REUSEPORT).
   server_->set_socket_options([](int socket) {
@@ -75,10 +75,6 @@ Site::Site(const Bus& bus, PulseDesk& desk, Options options)
   });
   server_->set_default_headers(security_headers());
   server_->set_payload_max_length(kLongestBody);
-  // One request a connection: what a refused one leaves unread is never taken for another.
-  server_->set_keep_alive_max_count(1);
-  server_->set_read_timeout(5s);
-  server_->set_write_timeout(2s);
   server_->set_tcp_nodelay(true);
   server_->set_pre_routing_handler([this](const auto& request, auto& response) {
     const std::string why = why_not_answered(provenance_of(request), options_.port);

@@ -7,7 +7,8 @@
 //   GET  /metrics  metrics_text()
 //   POST /command  a torque pulse (pulse.hpp), where commands are allowed
 //
-// A slow reader of /events misses frames: each is made when there is room for it, none waits.
+// A slow reader of /events misses frames: each is made when there is room for it, none waits. Whoever does not
+// finish a request, or takes nothing of its answer, is let go.
 
 #include <atomic>
 #include <memory>
@@ -18,12 +19,13 @@
 #include "service/dashboard/server/pulse.hpp"
 
 namespace httplib {
-class Server;
 struct Request;
 struct Response;
 }  // namespace httplib
 
 namespace adstar::dashboard {
+
+class LimitedServer;
 
 class Site {
  public:
@@ -35,6 +37,7 @@ class Site {
 
   /// Serves from then on. Throws cli::Failure when the port cannot be had.
   Site(const Bus& bus, PulseDesk& desk, Options options);
+  /// Ends at once, whatever its clients do.
   ~Site();
   Site(const Site&) = delete;
   Site& operator=(const Site&) = delete;
@@ -53,7 +56,7 @@ class Site {
   std::atomic<bool> ending_ = false;  ///< streams are to end
   std::atomic<bool> ended_ = false;   ///< the server listens no more
   std::atomic<int> streams_ = 0;
-  std::unique_ptr<httplib::Server> server_;
+  std::unique_ptr<LimitedServer> server_;
   std::thread thread_;
 };
 

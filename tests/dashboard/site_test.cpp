@@ -1,0 +1,135 @@
+// The server against clients that take their time.
+
+#include "service/dashboard/server/site.hpp"
+
+#include <arpa/inet.h>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace adstar::dashboard {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A server on a bus where nobody speaks.
+struct Served {
+  dds::Participant participant{{87, "lo", "site-test-" + std::to_string(getpid())}};
+  Bus bus{participant};
+  PulseDesk desk{participant};
+  std::optional<Site> site;
+  int port = 0;
+
+  explicit Served(bool allow_commands = false) {
+    site.emplace(bus, desk, Site::Options{0, allow_commands, "here"});
+    port = site->port();
+  }
+};
+
+class Client {
+ public:
+  explicit Client(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_port = htons(static_cast<std::uint16_t>(port));
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+  }
+  ~Client() { close(socket_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  bool say(const std::string& text) const {
+    return send(socket_, text.data(), text.size(), MSG_NOSIGNAL) ==
+           static_cast<ssize_t>(text.size());
+  }
+  /// All that comes until the server closes.
+  std::string hear() const {
+    std::string text;
+    char block[4096];
+    ssize_t count = 0;
+    while ((count = recv(socket_, block, sizeof block, 0)) > 0) {
+      text.append(block, static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+
+ private:
+  int socket_;
+};
+
+std::string answer_to(int port, const std::string& path) {
+  const Client client(port);
+  client.say("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n");
+  return client.hear();
+}
+
+/// Clients that send a byte of their head every now and then, until they lose patience or are no longer wanted.
+class Dripping {
+ public:
+  Dripping(int port, int clients) {
+    for (int i = 0; i < clients; ++i) {
+      clients_.push_back(std::make_unique<Client>(port));
+      clients_.back()->say("GET /");
+    }
+    thread_ = std::thread([this] {
+      const auto ends = std::chrono::steady_clock::now() + 20s;
+      while (!unwanted_ && std::chrono::steady_clock::now() < ends) {
+        for (const auto& client : clients_) {
+          client->say("a");
+        }
+        std::this_thread::sleep_for(50ms);
+      }
+      gave_up_ = !unwanted_;
+      clients_.clear();
+    });
+  }
+  ~Dripping() {
+    unwanted_ = true;
+    thread_.join();
+  }
+  bool gave_up() const { return gave_up_; }
+
+ private:
+  std::vector<std::unique_ptr<Client>> clients_;
+  std::atomic<bool> unwanted_ = false, gave_up_ = false;
+  std::thread thread_;
+};
+
+TEST(Site, ends_though_a_client_still_sends_its_head) {
+  Served served;
+  const Dripping dripping(served.port, 1);
+  ASSERT_NE(answer_to(served.port, "/about").find("200 OK"),
+            std::string::npos);  // so that one is in
+  served.site.reset();
+  EXPECT_FALSE(dripping.gave_up());
+}
+
+TEST(Site, answers_though_slow_clients_held_every_thread) {
+  Served served;
+  const Dripping dripping(served.port, 20);
+  EXPECT_NE(answer_to(served.port, "/metrics").find("200 OK"), std::string::npos);
+  EXPECT_FALSE(dripping.gave_up());
+}
+
+TEST(Site, reads_no_second_request_on_a_connection) {
+  const Served served;
+  const std::string request =
+      "GET /about HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(served.port) + "\r\n\r\n";
+  const Client client(served.port);
+  client.say(request + request);
+  const std::string heard = client.hear();
+  const std::size_t first = heard.find("HTTP/1.1 200 OK");
+  EXPECT_EQ(first, 0U) << heard;
+  EXPECT_EQ(heard.find("HTTP/1.1", first + 1), std::string::npos) << heard;
+}
+
+}  // namespace
+}  // namespace adstar::dashboard
