@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
                          ResidualDipole<double>{
                              {300, -500, 400},
                              std::make_shared<const FieldOnOrbit<double>>(field())}},
-                    Case{"magnetorquer", torquer(0)}, Case{"magnetorquer_lagging", torquer(1.3)},
+                    Case{"magnetorquer", torquer(0)}, Case{"magnetorquer_lagging", torquer(13)},
                     Case{"aerodynamic", in_air()}, Case{"solar_pressure", in_sun()},
                     Case{"thruster", thruster()}),
     [](const auto& one) { return one.param.name; });
