@@ -1,6 +1,7 @@
 #include <chrono>
 
 #include "service/scene/sections.hpp"
+#include "service/scene/time_scales.hpp"
 
 namespace adstar::scene {
 namespace {
@@ -69,7 +70,8 @@ std::optional<std::string> read_epoch(const Value& value, TimeScale scale) {
     text[10] = 'T';
   }
   const std::string_view local = utc ? without_utc_mark(text) : std::string_view(text);
-  if (!is_date_and_time(local, scale)) {
+  // ERFA knows which leap seconds there were.
+  if (!is_date_and_time(local, scale) || !tai_date(local, utc ? Clock::utc : Clock::tai)) {
     value.refuse(utc ? "a date and time in UTC" : "a date and time in TAI, without an offset",
                  utc ? "2026-01-01T00:00:00Z" : "2026-01-01T00:00:00");
     return std::nullopt;

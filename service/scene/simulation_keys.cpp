@@ -81,6 +81,10 @@ void read_epochs(Keys& keys, Simulation& simulation) {
   if (epoch_tai) {
     simulation.epoch = epoch_tai;
   }
+  if ((utc || tai) && !simulation.epoch) {
+    simulation.epoch =
+        "2026-01-01T00:00:00 UTC";  // refused: a stand-in, so that nobody else asks for a date
+  }
   if (utc && tai) {
     tai.refuse_as("a second epoch", "epoch_utc or epoch_tai, not both", "removing one of the two");
   }

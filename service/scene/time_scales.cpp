@@ -91,9 +91,10 @@ std::optional<TaiDate> tai_date(std::string_view text, Clock clock) {
   }
   const bool utc = clock == Clock::utc;
   double day = 0, fraction = 0;
-  // Above zero: a year that ERFA's leap seconds do not reach is taken with the last that it knows.
-  if (eraDtf2d(utc ? "UTC" : "TAI", c->year, c->month, c->day, c->hour, c->minute, c->second, &day,
-               &fraction) < 0) {
+  // 1: a year that ERFA's leap seconds do not reach is taken with the last that it knows; above it, past the day's end.
+  const int status = eraDtf2d(utc ? "UTC" : "TAI", c->year, c->month, c->day, c->hour, c->minute,
+                              c->second, &day, &fraction);
+  if (status < 0 || status > 1) {
     return std::nullopt;
   }
   TaiDate date;

@@ -1,9 +1,6 @@
 // The space around in a scene: [earth], the outside, the models and actuators there; what is read, and what is refused.
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -97,8 +94,9 @@ TEST(SceneSpace, dates_of_four_scales_are_one_instant) {
   EXPECT_EQ(ns("2016-366T23:59:60.5", Clock::utc), -500'000'000) << "within the leap second";
   EXPECT_EQ(ns("2016-12-31T23:59:59.25", Clock::utc), -1'750'000'000);
   EXPECT_EQ(ns("2018-01-01T00:00:00", Clock::utc), 365 * 86'400'000'000'000);
-  for (const char* const wrong : {"2017-13-01T00:00:00", "2017-366T00:00:00", "2017-01-01 00:00:00",
-                                  "2017-01-01T00:00", "2017-01-01T00:00:00.", ""}) {
+  for (const char* const wrong :
+       {"2017-13-01T00:00:00", "2017-366T00:00:00", "2017-01-01 00:00:00", "2017-01-01T00:00",
+        "2017-01-01T00:00:00.", "2016-12-31T23:59:61", "2017-06-30T23:59:60", ""}) {
     EXPECT_FALSE(tai_date(wrong, Clock::utc)) << wrong;
   }
 }
@@ -125,6 +123,61 @@ TEST(SceneSpace, a_model_says_what_it_lacks) {
             std::string::npos);
 }
 
+TEST(SceneSpace, an_epoch_within_a_leap_second_that_never_was_is_refused_once) {
+  const std::string complaint =
+      refusal(scene_of(kOrbit + model("residual_dipole", "dipole_body_a_m2 = [0, 0, 0.1]\n"),
+                       "epoch_utc = \"2025-06-30T23:59:60Z\"\n"));
+  EXPECT_NE(complaint.find("simulation.epoch_utc: got \"2025-06-30T23:59:60Z\""), std::string::npos)
+      << complaint;
+  EXPECT_EQ(complaint.find('\n'), std::string::npos) << "and nobody else asks for a date";
+  EXPECT_EQ(refusal(scene_of("", "epoch_utc = \"2016-12-31T23:59:60Z\"\n")), "");
+}
+
+TEST(SceneSpace, the_earth_is_turned_by_ut1) {
+  const std::string dipole = model("residual_dipole", "dipole_body_a_m2 = [0, 0, 0.1]\n");
+  const auto angle = [&](const std::string& earth) {
+    return std::get<ResidualDipole<double>>(
+               read(scene_of(kOrbit + dipole, kEpoch, earth)).torques[0])
+        .field->field.rotation.angle_rad;
+  };
+  const double late = angle("[earth]\nut1_minus_utc_s = 0.5\n") - angle("[earth]\n");
+  EXPECT_NEAR(late, 0.5 * kEarthRotation_rad_s, 1e-12);
+  EXPECT_NE(
+      refusal(scene_of("", kEpoch, "[earth]\nut1_minus_utc_s = 37\n")).find("seconds from -1 to 1"),
+      std::string::npos);
+}
+
+TEST(SceneSpace, the_field_is_of_harmonics_unless_a_dipole_is_asked_for) {
+  const std::string dipole = model("residual_dipole", "dipole_body_a_m2 = [0, 0, 0.1]\n");
+  const auto field = [&](const std::string& earth) {
+    return std::get<ResidualDipole<double>>(
+               read(scene_of(kOrbit + dipole, kEpoch, earth)).torques[0])
+        .field->field;
+  };
+  EXPECT_TRUE(field("").harmonics);
+  EXPECT_FALSE(field("[earth]\nmagnetic_field = \"dipole\"\n").harmonics);
+  EXPECT_NE(
+      refusal(scene_of("", kEpoch, "[earth]\nmagnetic_field = \"dipole\"\nmagnetic_degree = 3\n"))
+          .find("no magnetic_degree beside magnetic_field"),
+      std::string::npos);
+}
+
+TEST(SceneSpace, sunlight_is_cut_off_as_its_shadow_says) {
+  const auto light = [](const std::string& box, const std::string& lines) {
+    return std::get<SolarPressure<double>>(
+        read(scene_of(kOrbit + kBox + box + model("solar_pressure", lines))).torques[0]);
+  };
+  EXPECT_EQ(light("", "").shadow, Shadow::cone);
+  EXPECT_EQ(light("", "shadow = \"cylinder\"\n").shadow, Shadow::cylinder);
+  EXPECT_EQ(light("", "shadow = \"none\"\n").shadow, Shadow::none);
+  const auto mirror = light("specular_reflectivity = 0.75\ndiffuse_reflectivity = 0.25\n", "");
+  EXPECT_EQ(mirror.facets->at(0).specular, 0.75);
+  EXPECT_NE(refusal(scene_of(kOrbit + kBox +
+                             "specular_reflectivity = 0.75\ndiffuse_reflectivity = 0.5\n"))
+                .find("no more than what specular_reflectivity leaves of 1"),
+            std::string::npos);
+}
+
 TEST(SceneSpace, an_orbit_that_j2_turns_is_the_same_from_a_position_and_a_velocity) {
   const auto orbit_of = [](const std::string& lines) {
     return std::get<SecularOrbit<double>>(
@@ -145,79 +198,6 @@ TEST(SceneSpace, an_orbit_that_j2_turns_is_the_same_from_a_position_and_a_veloci
   EXPECT_NEAR(same.at_start.right_ascension_rad, -2, 1e-14);
   EXPECT_NEAR(same.at_start.argument_of_periapsis_rad, 2, 1e-13);
   EXPECT_NEAR(same.node_rate_rad_s, orbit.node_rate_rad_s, 1e-20);
-}
-
-class Oem : public ::testing::Test {
- protected:
-  Oem() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "adstar-oem.XXXXXX").string();
-    directory_ = mkdtemp(pattern.data());
-  }
-  ~Oem() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(directory_, ignored);
-  }
-  std::string scene(const std::string& simulation = kEpoch) const {
-    return scene_of("[spacecraft.orbit]\nmodel = \"oem\"\nfile = \"orbit.oem\"\n", simulation);
-  }
-  void write(const std::string& text) const { std::ofstream(directory_ / "orbit.oem") << text; }
-  std::string refused(const std::string& text) const {
-    write(text);
-    return refusal(scene(), directory_ / "scene.toml");
-  }
-  std::filesystem::path directory_;
-};
-
-const std::string kHead =
-    "CCSDS_OEM_VERS = 2.0\nCREATION_DATE = 2026-01-01T00:00:00\nORIGINATOR = A\n"
-    "META_START\nOBJECT_NAME = SAT\nCENTER_NAME = EARTH\nREF_FRAME = EME2000\n"
-    "TIME_SYSTEM = UTC\nINTERPOLATION = HERMITE\nINTERPOLATION_DEGREE = 7\nMETA_STOP\n";
-
-TEST_F(Oem, gives_the_orbit_of_its_rows_between_them) {
-  const KeplerOrbit<double> orbit = make_orbit<double>({7e6, 0.01, 1, 0.5, 0.2, 0});
-  std::string text = kHead + "COMMENT one row a minute\n";
-  for (int minute = 0; minute < 20; ++minute) {
-    const OrbitMotion<double> at = motion_at(orbit, 60.0 * minute);
-    char row[300];
-    std::snprintf(row, sizeof row,
-                  "2026-01-01T00:%02d:00.000 %.12f %.12f %.12f %.15f %.15f %.15f\n", minute,
-                  at.r_I.x / 1e3, at.r_I.y / 1e3, at.r_I.z / 1e3, at.v_I.x / 1e3, at.v_I.y / 1e3,
-                  at.v_I.z / 1e3);
-    text += row;
-  }
-  write(text);
-  const Scene read = parse(scene(), directory_ / "scene.toml");
-  const Orbit<double>& given = *read.spacecraft[0].orbit;
-  for (const double t : {0.0, 90.0, 333.3, 1139.0}) {
-    const OrbitMotion<double> a = motion_at(given, t), b = motion_at(orbit, t);
-    EXPECT_LT(norm(a.r_I - b.r_I), 1e-3) << t;
-    EXPECT_LT(norm(a.v_I - b.v_I), 1e-4) << t;
-  }
-  const std::string warning = "its orbit is known from 0 s to 1140 s, and not over the whole run";
-  EXPECT_NE(report::scene_report(read).find(warning), std::string::npos) << "endless";
-  write(text);
-  const Scene shorter = parse(scene(kEpoch + "duration = \"1140s\"\n"), directory_ / "scene.toml");
-  EXPECT_EQ(report::scene_report(shorter).find("WARNING   its orbit"), std::string::npos);
-}
-
-TEST_F(Oem, refuses_what_is_none_with_the_place) {
-  EXPECT_NE(refused("").find("no CCSDS_OEM_VERS"), std::string::npos);
-  EXPECT_NE(refused("x,y\n").find("orbit.oem:1:1: header: got \"x,y\""), std::string::npos);
-  EXPECT_NE(refused(kHead + "2026-01-01T00:00:00 1 2 3\n").find("orbit.oem:12:1: row: got too few"),
-            std::string::npos);
-  std::string wrong_frame = kHead;
-  wrong_frame.replace(wrong_frame.find("EME2000"), 7, "ITRF");
-  EXPECT_NE(refused(wrong_frame).find("axes that do not turn"), std::string::npos);
-  EXPECT_NE(refused(kHead + "2026-01-01T00:00:00 7000 0 0 0 7 0\n").find("fewer epochs"),
-            std::string::npos);
-  EXPECT_NE(refused(kHead + "2026-01-01T00:01:00 7000 0 0 0 7 0\n2026-01-01T00:00:00 7 0 0 0 7 0\n")
-                .find("an epoch after that of the row before"),
-            std::string::npos);
-  EXPECT_NE(refusal(scene(""), directory_ / "scene.toml").find("an orbit with dates in a scene"),
-            std::string::npos);
-  std::filesystem::remove(directory_ / "orbit.oem");
-  EXPECT_NE(refusal(scene(), directory_ / "scene.toml").find("a CCSDS OEM file"),
-            std::string::npos);
 }
 
 }  // namespace
