@@ -53,13 +53,13 @@ scene::Spacecraft without_models(scene::Spacecraft craft) {
   return craft;
 }
 
-std::string kind_of(const scene::Spacecraft& craft) {
-  std::string kind;
+std::string models_of(const scene::Spacecraft& craft) {
+  std::string models;
   for (const Torque<double>& torque : craft.torques) {
-    kind += std::visit([](const auto& model) { return std::string(model.kName) + " "; }, torque);
+    models += std::visit([](const auto& model) { return std::string(model.kName) + " "; }, torque);
   }
-  return kind + std::to_string(craft.linked ? craft.linked->bodies.size() : 0) + " " +
-         std::to_string(craft.wheels.size()) + (craft.orbit ? " orbit" : "");
+  return models + std::to_string(craft.linked ? craft.linked->bodies.size() : 0) + " " +
+         std::to_string(craft.wheels.size());
 }
 
 std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& simulation) {
@@ -105,16 +105,43 @@ std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& si
   return text;
 }
 
-std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>& accuracy) {
+std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>& accuracy,
+                     bool can_be_named) {
+  if (!estimate.torque_n_m) {
+    return "not estimable about another body than the Earth";
+  }
   std::string text = fmt::format("{} {:.0e} N m, turns it by {} {:.0e} rad",
                                  estimate.modelled ? "at most" : "about", *estimate.torque_n_m,
                                  estimate.modelled ? "at most" : "about", estimate.turn_rad);
   if (accuracy && estimate.modelled && estimate.turn_rad < *accuracy) {
     text += fmt::format(": WARNING, below the {:.0e} rad asked for; leave it out", *accuracy);
   } else if (accuracy && !estimate.modelled && estimate.turn_rad > *accuracy) {
-    text += fmt::format(": WARNING, above the {:.0e} rad asked for; name it", *accuracy);
+    text += fmt::format(": WARNING, above the {:.0e} rad asked for{}", *accuracy,
+                        can_be_named ? "; name it" : ", and linked bodies cannot have it");
   }
   return text;
+}
+
+std::string worths_of(const scene::Spacecraft& craft, const scene::Simulation& simulation) {
+  const double horizon = horizon_of(simulation, craft);
+  std::string text = fmt::format("over {} s\n", short_number(horizon));
+  if (!craft.orbit) {
+    return text + "    not estimable without an orbit\n";
+  }
+  for (const TorqueEstimate& estimate : estimates_of(craft, horizon)) {
+    const bool can_be_named =
+        !craft.linked || std::string_view(estimate.model) == GravityGradient<double>::kName;
+    text += fmt::format("    {:<17} {:<12} {}\n", estimate.model,
+                        estimate.modelled ? "modelled" : "left out",
+                        worth_of(estimate, simulation.accuracy_rad, can_be_named));
+  }
+  return text;
+}
+
+std::string more_text(std::size_t kinds, std::size_t shown) {
+  return kinds > shown
+             ? fmt::format("  {} more kinds of spacecraft are not shown\n", counted(kinds - shown))
+             : "";
 }
 
 }  // namespace
@@ -125,27 +152,20 @@ std::string cost_report(const scene::Scene& scene) {
   std::string text =
       "cost of a step, measured here (each model alone on the rigid body; median of up to 11)\n";
   std::string worth;
-  std::set<std::string> kinds;
+  std::set<std::string> costly, kinds;  // spacecraft that differ in what is said of them
   for (const scene::Spacecraft& craft : scene.spacecraft) {
-    if (kinds.size() == kMostKinds || !kinds.insert(kind_of(craft)).second) {
-      continue;
+    if (costly.insert(models_of(craft)).second && costly.size() <= kMostKinds) {
+      text += fmt::format("  '{}'\n", craft.name) + costs_of(craft, simulation);
     }
-    text += fmt::format("  '{}'\n", craft.name) + costs_of(craft, simulation);
-    const double horizon = horizon_of(simulation, craft);
-    worth += fmt::format("  '{}', over {} s\n", craft.name, short_number(horizon));
-    if (!craft.orbit) {
-      worth += "    not estimable without an orbit\n";
-      continue;
-    }
-    for (const TorqueEstimate& estimate : estimates_of(craft, horizon)) {
-      worth += fmt::format("    {:<17} {:<12} {}\n", estimate.model,
-                           estimate.modelled ? "modelled" : "left out",
-                           worth_of(estimate, simulation.accuracy_rad));
+    const std::string estimates = worths_of(craft, simulation);
+    if (kinds.insert(models_of(craft) + estimates).second && kinds.size() <= kMostKinds) {
+      worth += fmt::format("  '{}', ", craft.name) + estimates;
     }
   }
-  return text + "torques of the surroundings, to an order of magnitude" +
+  return text + more_text(costly.size(), kMostKinds) +
+         "torques of the surroundings, to an order of magnitude" +
          (simulation.accuracy_rad ? "" : " (simulation.accuracy_rad says what matters)") + "\n" +
-         worth;
+         worth + more_text(kinds.size(), kMostKinds);
 }
 
 }  // namespace adstar::report

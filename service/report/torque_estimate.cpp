@@ -22,14 +22,16 @@ Cube cube_of(double moment_kg_m2) {
   return {side, kDensity_kg_m3 * side * side * side};
 }
 
+/// All that are modelled push the same way, at most. None: there is none of them.
 template <class Model>
-const Model* find(const scene::Spacecraft& craft) {
+std::optional<double> bound_of_all(const scene::Spacecraft& craft) {
+  std::optional<double> sum;
   for (const Torque<double>& torque : craft.torques) {
     if (const auto* const model = std::get_if<Model>(&torque)) {
-      return model;
+      sum = sum.value_or(0) + model->bound();
     }
   }
-  return nullptr;
+  return sum;
 }
 
 double turn_of(double torque_n_m, double least_moment, double horizon_s) {
@@ -46,6 +48,12 @@ double horizon_of(const scene::Simulation& simulation, const scene::Spacecraft& 
   if (!craft.orbit) {
     return kHour_s;
   }
+  if (const auto* const kepler = std::get_if<KeplerOrbit<double>>(&*craft.orbit)) {
+    return 2 * std::numbers::pi / kepler->mean_motion_rad_s;
+  }
+  if (const auto* const secular = std::get_if<SecularOrbit<double>>(&*craft.orbit)) {
+    return 2 * std::numbers::pi / secular->anomaly_rate_rad_s;
+  }
   const double r = least_distance(*craft.orbit);
   return 2 * std::numbers::pi * std::sqrt(r / gravity_of(*craft.orbit)) * r;
 }
@@ -61,11 +69,9 @@ std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double 
     r = least_distance(*craft.orbit);
   }
   std::vector<TorqueEstimate> all;
-  const auto add = [&](const char* name, const auto* model, auto guess) {
-    TorqueEstimate estimate{name, model != nullptr, std::nullopt, 0};
-    if (model != nullptr) {
-      estimate.torque_n_m = model->bound();
-    } else if (r) {
+  const auto add = [&](const char* name, const std::optional<double>& bound, auto guess) {
+    TorqueEstimate estimate{name, bound.has_value(), bound, 0};
+    if (!bound && r) {
       estimate.torque_n_m = guess();
     }
     if (estimate.torque_n_m) {
@@ -73,16 +79,23 @@ std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double 
     }
     all.push_back(estimate);
   };
-  add(GravityGradient<double>::kName, find<GravityGradient<double>>(craft),
-      [&] { return 1.5 * gravity_of(*craft.orbit) / *r / *r / *r * (moments[2] - moments[0]); });
-  add(ResidualDipole<double>::kName, find<ResidualDipole<double>>(craft),
-      [&] { return kDipole_a_m2_kg * cube.mass_kg * DipoleField<double>{}.bound(*r); });
-  add(Aerodynamic<double>::kName, find<Aerodynamic<double>>(craft), [&] {
-    const double v = greatest_speed(*craft.orbit);
-    return 0.5 * air_density(*r - kEarthRadius_m) * v * v * kDrag * lever_area;
+  using Guess = std::optional<double>;
+  const bool earth = r && is_about_the_earth(*craft.orbit);
+  add(GravityGradient<double>::kName, bound_of_all<GravityGradient<double>>(craft), [&]() -> Guess {
+    return 1.5 * gravity_of(*craft.orbit) / *r / *r / *r * (moments[2] - moments[0]);
   });
-  add(SolarPressure<double>::kName, find<SolarPressure<double>>(craft),
-      [&] { return kSolarPressure_N_m2 * kReflection * lever_area; });
+  add(ResidualDipole<double>::kName, bound_of_all<ResidualDipole<double>>(craft), [&]() -> Guess {
+    return earth ? Guess(kDipole_a_m2_kg * cube.mass_kg * DipoleField<double>{}.bound(*r))
+                 : std::nullopt;
+  });
+  add(Aerodynamic<double>::kName, bound_of_all<Aerodynamic<double>>(craft), [&]() -> Guess {
+    const double v = greatest_speed(*craft.orbit);
+    return earth ? Guess(0.5 * air_density(*r - kEarthRadius_m) * v * v * kDrag * lever_area)
+                 : std::nullopt;
+  });
+  add(SolarPressure<double>::kName, bound_of_all<SolarPressure<double>>(craft), [&]() -> Guess {
+    return earth ? Guess(kSolarPressure_N_m2 * kReflection * lever_area) : std::nullopt;
+  });
   return all;
 }
 

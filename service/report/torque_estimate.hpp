@@ -12,8 +12,10 @@ namespace adstar::report {
 struct TorqueEstimate {
   const char* model = "";  ///< its name in a scene
   bool modelled = false;
-  std::optional<double> torque_n_m;  ///< at most, or about; none: not estimable without an orbit
-  double turn_rad = 0;               ///< ½ tau t²/J of the least moment, or π when it is more
+  std::optional<double>
+      torque_n_m;       ///< at most, or about; none: not estimable without an orbit, or about
+                        ///< another body than the Earth
+  double turn_rad = 0;  ///< ½ tau t²/J of the least moment, or π when it is more
 };
 
 /// Of the torques of the surroundings, over `horizon_s`. What the scene does not say is taken from the inertia: a cube

@@ -65,6 +65,45 @@ TEST(TorqueEstimate, of_what_is_left_out_has_the_right_order) {
   EXPECT_LT(air, 1e-6);
 }
 
+TEST(TorqueEstimate, counts_every_torque_of_a_kind) {
+  const std::string light = "[[spacecraft.torque]]\nmodel = \"solar_pressure\"\n";
+  const std::string box = "[spacecraft.box]\nsize_m = [1, 1, 2]\n";
+  const auto torque = [&](const std::string& torques) {
+    const scene::Scene scene = read(kOrbit + box + torques, "epoch_utc = 2026-01-01T00:00:00Z\n");
+    return *of(estimates_of(scene.spacecraft[0], 10), "solar_pressure").torque_n_m;
+  };
+  EXPECT_NEAR(torque(light + light) / torque(light), 2, 1e-12);
+}
+
+TEST(TorqueEstimate, knows_no_air_no_field_and_no_sun_about_another_body) {
+  const scene::Scene moon =
+      read("[spacecraft.orbit]\nsemi_major_axis_m = 2e6\ngravity_m3_s2 = 4.9e12\n");
+  for (const TorqueEstimate& each : estimates_of(moon.spacecraft[0], 100)) {
+    EXPECT_EQ(each.torque_n_m.has_value(), std::string(each.model) == "gravity_gradient");
+  }
+  EXPECT_NE(cost_report(moon).find("not estimable about another body than the Earth"),
+            std::string::npos);
+}
+
+TEST(TorqueEstimate, without_a_duration_is_over_one_revolution) {
+  const scene::Scene scene = read(kOrbit + "eccentricity = 0.01\n");
+  EXPECT_NEAR(horizon_of(scene.simulation, scene.spacecraft[0]),
+              2 * M_PI * std::sqrt(343e18 / 3.986004418e14), 1e-9);
+}
+
+TEST(CostReport, tells_spacecraft_apart_by_what_it_says_and_counts_the_rest) {
+  std::string crafts;
+  for (int i = 1; i <= 7; ++i) {
+    crafts += scene::kSpacecraft;
+    crafts.replace(crafts.rfind("\"sat1\""), 6, "\"cube" + std::to_string(i) + "\"");
+    crafts += "[spacecraft.orbit]\nsemi_major_axis_m = " + std::to_string(i + 6) + "e6\n";
+  }
+  const std::string text = cost_report(scene::parse(scene::kSimulation + crafts, "scene.toml"));
+  EXPECT_NE(text.find("'cube5', over"), std::string::npos) << text;
+  EXPECT_EQ(text.find("'cube6', over"), std::string::npos) << text;
+  EXPECT_NE(text.find("  2 more kinds of spacecraft are not shown\n"), std::string::npos) << text;
+}
+
 TEST(CostReport, warns_of_what_is_not_worth_it_and_of_what_is_missing) {
   const std::string coarse =
       cost_report(read(kOrbit + kGravity, "duration = \"10s\"\naccuracy_rad = 0.01\n"));

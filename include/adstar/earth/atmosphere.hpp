@@ -43,7 +43,7 @@ T air_density(const T& altitude_m) {
   return T(layer.density_kg_m3) * exponential(T((T(layer.base_km) - h) / T(layer.scale_height_km)));
 }
 
-/// Above the ellipsoid of the Earth, straight down to the centre: h = r - a (1 - f (u·pole)²) [m], f² left out (70 m).
+/// Above the ellipsoid of the Earth, straight down to the centre: h = r - a (1 - f (u·pole)²) [m], f² left out (at most 27 m).
 template <class T>
 T altitude_of(const OrbitPosition<T>& position, const Vec3<T>& pole_I) {
   const T sine = dot(position.direction_I, pole_I);

@@ -15,9 +15,10 @@ namespace adstar {
 /// Earth rotation rate [rad/s] (IERS Conventions 2010, eq. 5.15).
 inline constexpr double kEarthRotation_rad_s = 7.292115146706979e-5;
 
-/// Of WGS 84: equatorial radius [m] and flattening.
+/// Of WGS 84: equatorial radius [m], flattening, and the radius at the poles [m].
 inline constexpr double kEarthRadius_m = 6378137.0;
 inline constexpr double kEarthFlattening = 1 / 298.257223563;
+inline constexpr double kEarthPolarRadius_m = kEarthRadius_m * (1 - kEarthFlattening);
 
 /// R_EI at one instant.
 template <class T>

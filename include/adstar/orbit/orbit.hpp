@@ -107,6 +107,13 @@ T gravity_of(const Orbit<T>& orbit) {
   return std::get<std::shared_ptr<const Ephemeris<T>>>(orbit)->gravity_m3_s2;
 }
 
+/// Whether μ is the Earth's, to 1 %: then so are the centre, the air and the field.
+template <class T>
+bool is_about_the_earth(const Orbit<T>& orbit) {
+  const T ratio = gravity_of(orbit) / T(kEarthGravity_m3_s2);
+  return ratio > T(0.99) && ratio < T(1.01);
+}
+
 /// The spacecraft is never nearer to the centre [m]: what torques are bounded with.
 template <class T>
 T least_distance(const Orbit<T>& orbit) {
