@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "adstar/bodies/gyrostat.hpp"
+#include "adstar/earth/rotation.hpp"
 #include "service/report/numbers.hpp"
 
 namespace adstar::report {
@@ -200,12 +201,22 @@ std::string span_warning(const Orbit<double>& orbit, double end_of_run_s) {
       short_number(begin), short_number(end));
 }
 
+std::string surface_warning(const Orbit<double>& orbit) {
+  const double least = least_distance(orbit);
+  return is_about_the_earth(orbit) && least < kEarthPolarRadius_m
+             ? fmt::format(
+                   "    WARNING   its orbit comes within {} m of the centre, which is "
+                   "below the Earth's surface\n",
+                   short_number(least))
+             : "";
+}
+
 std::string orbit_line(const scene::Spacecraft& craft, double end_of_run_s) {
   std::string text;
   if (craft.orbit) {
     text = "    orbit     " +
            std::visit([](const auto& orbit) { return text_of(orbit); }, *craft.orbit) + "\n" +
-           span_warning(*craft.orbit, end_of_run_s);
+           span_warning(*craft.orbit, end_of_run_s) + surface_warning(*craft.orbit);
   }
   if (craft.target) {
     const Quat<double>& q = craft.target->attitude;

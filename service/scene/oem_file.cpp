@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "service/scene/decimal.hpp"
 #include "service/scene/files.hpp"
@@ -11,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMostComplaints = 20;
 constexpr std::string_view kBlank = " \t";
+constexpr std::string_view kRow = "an epoch, three numbers in km and three in km/s";
+constexpr std::string_view kRowExample = "2026-01-01T00:00:00 6900.0 0.0 0.0 0.0 7.6 0.0";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
@@ -77,15 +80,16 @@ class OemReader {
                  "CCSDS_OEM_VERS = 2.0 as its first line");
       }
     } else if (line == "META_START") {
+      if (in_segment_) {
+        complain("META_START", "a second segment", "one: an orbit is not joined across them",
+                 "a file of its own for each, or one segment of their rows");
+      }
       in_meta_ = true;
       in_segment_ = false;
-      clock_.reset();
     } else if (line == "META_STOP") {
       in_meta_ = false;
       in_segment_ = true;
-      if (!clock_ && wrong_ == 0) {
-        complain("TIME_SYSTEM", "nothing", "UTC, TAI, TT or GPS", "TIME_SYSTEM = UTC");
-      }
+      demand_meta();
     } else if (line == "COVARIANCE_START") {
       in_covariance_ = true;
     } else if (line == "COVARIANCE_STOP") {
@@ -105,6 +109,8 @@ class OemReader {
     }
     const std::string_view key = trimmed(line.substr(0, equals));
     const std::string_view value = trimmed(line.substr(equals + 1));
+    has_centre_ = has_centre_ || key == "CENTER_NAME";
+    has_frame_ = has_frame_ || key == "REF_FRAME";
     if (key == "CENTER_NAME" && value != "EARTH") {
       complain(key, in_quotes(value), "EARTH", "an orbit about the Earth");
     } else if (key == "REF_FRAME" && value != "EME2000" && value != "GCRF" && value != "ICRF") {
@@ -122,11 +128,25 @@ class OemReader {
       table_.method = value == "LAGRANGE" ? EphemerisMethod::lagrange : EphemerisMethod::hermite;
     } else if (key == "INTERPOLATION_DEGREE") {
       const auto degree = finite_number(value);
-      const bool good = degree && *degree >= 1 && *degree <= Ephemeris<double>::kMostDegree;
+      const bool good = degree && *degree >= 1 && *degree <= Ephemeris<double>::kMostDegree &&
+                        *degree == std::floor(*degree);
       if (!good) {
-        complain(key, in_quotes(value), "a degree from 1 to 15", "INTERPOLATION_DEGREE = 7");
+        complain(key, in_quotes(value), "a whole degree from 1 to 15", "INTERPOLATION_DEGREE = 7");
       }
       table_.degree = good ? static_cast<int>(*degree) : table_.degree;
+    }
+  }
+
+  void demand_meta() {
+    if (!clock_ && wrong_ == 0) {
+      complain("TIME_SYSTEM", "nothing", "UTC, TAI, TT or GPS", "TIME_SYSTEM = UTC");
+    }
+    if (!has_centre_) {
+      complain("CENTER_NAME", "nothing", "EARTH", "CENTER_NAME = EARTH");
+    }
+    if (!has_frame_) {
+      complain("REF_FRAME", "nothing", "EME2000, GCRF or ICRF: axes that do not turn",
+               "REF_FRAME = EME2000");
     }
   }
 
@@ -138,27 +158,26 @@ class OemReader {
       complain("epoch", in_quotes(when), "a date and time as in 2026-01-01T00:00:00.000",
                "one within 290 years of the scene's epoch");
     }
-    std::array<double, 6> numbers{};
-    for (double& number : numbers) {
-      const std::string_view word = take_word(line);
+    std::array<double, 9> numbers{};  // accelerations, which may follow, are not needed
+    std::size_t count = 0;
+    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line), ++count) {
       const auto value = finite_number(word);
-      if (!value) {
-        complain("row", word.empty() ? "too few numbers" : in_quotes(word),
-                 "an epoch, three numbers in km and three in km/s",
-                 "2026-01-01T00:00:00 6900.0 0.0 0.0 0.0 7.6 0.0");
+      if (!value || count == numbers.size()) {
+        complain("row", in_quotes(word), kRow, kRowExample);
         return;
       }
-      number = *value;
+      numbers[count] = *value;
+    }
+    if (count != 6 && count != 9) {
+      complain("row", std::to_string(count) + " numbers", kRow, kRowExample);
+      return;
     }
     if (!t_ns) {
       return;
     }
     constexpr double kKilo = 1e3;
     const double t_s = static_cast<double>(*t_ns) * 1e-9;
-    if (!table_.rows.empty() && table_.rows.back().t_s == t_s) {
-      return;  // where two segments meet
-    }
-    if (!table_.rows.empty() && table_.rows.back().t_s > t_s) {
+    if (!table_.rows.empty() && table_.rows.back().t_s >= t_s) {
       complain("epoch", in_quotes(when), "an epoch after that of the row before",
                "sorting the rows by time");
       return;
@@ -185,6 +204,7 @@ class OemReader {
   std::uint32_t line_ = 0;
   std::size_t wrong_ = 0;
   bool version_seen_ = false, in_meta_ = false, in_segment_ = false, in_covariance_ = false;
+  bool has_centre_ = false, has_frame_ = false;
 };
 
 }  // namespace
@@ -214,7 +234,17 @@ std::optional<std::shared_ptr<const Ephemeris<double>>> read_oem_file(
                     "at least two epochs of an orbit", "a longer table");
     return std::nullopt;
   }
-  return make_ephemeris(std::move(*table));
+  const auto shared = make_ephemeris(std::move(*table));
+  constexpr double kMostOff = 0.2;
+  if (!(shared->off_gravity <= kMostOff)) {
+    value.refuse_as(in_quotes(file.string()) +
+                        ", between whose rows an orbit accelerates otherwise than by " +
+                        "gravity_m3_s2, by " + number_text(shared->off_gravity) + " of it",
+                    "rows so near that a polynomial follows the orbit, in km and km/s",
+                    "more rows, or a higher INTERPOLATION_DEGREE");
+    return std::nullopt;
+  }
+  return shared;
 }
 
 }  // namespace adstar::scene

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adstar/earth/rotation.hpp"
 #include "adstar/trig.hpp"
 #include "service/scene/complaints.hpp"
 #include "service/scene/oem_file.hpp"
@@ -171,6 +172,16 @@ std::optional<Orbit<double>> read_oem(Keys& keys, double gravity, const OrbitCon
   return table ? std::optional<Orbit<double>>(*table) : std::nullopt;
 }
 
+/// As lengths in km are. An orbit that leads into the Earth later may be a sounding rocket's: check warns of it.
+void refuse_to_begin_inside(const Value& value, const Orbit<double>& orbit) {
+  const double distance = position_at(orbit, 0.0).distance_m;
+  if (is_about_the_earth(orbit) && distance < kEarthPolarRadius_m) {
+    value.refuse_as("an orbit that begins " + number_text(distance) + " m from the Earth's centre",
+                    "one that begins above its surface, 6.357e6 m from the centre at the poles",
+                    "lengths in metres, or gravity_m3_s2 of another body");
+  }
+}
+
 }  // namespace
 
 std::optional<Orbit<double>> read_orbit(const Value& value, const OrbitContext& context) {
@@ -194,6 +205,9 @@ std::optional<Orbit<double>> read_orbit(const Value& value, const OrbitContext& 
                                              : *which == 2 ? read_fixed(keys, gravity)
                                                            : read_oem(keys, gravity, context);
   keys.refuse_unknown();
+  if (orbit && value.complaints().count() == complaints) {
+    refuse_to_begin_inside(value, *orbit);
+  }
   return value.complaints().count() == complaints ? orbit : std::nullopt;
 }
 

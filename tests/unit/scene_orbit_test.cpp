@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scene_text.hpp"
+#include "service/report/scene_report.hpp"
 
 namespace adstar::scene {
 namespace {
@@ -99,6 +100,29 @@ TEST(SceneOrbit, refuses_what_is_no_ellipse) {
   EXPECT_NE(refusal(in_spacecraft("[spacecraft.orbit]\nposition_inertial_m = [7e6, 0, 0]\n"))
                 .find("velocity_inertial_m_s: got nothing"),
             std::string::npos);
+}
+
+TEST(SceneOrbit, that_begins_inside_the_earth_is_taken_for_kilometres) {
+  EXPECT_EQ(refusal(in_spacecraft("[spacecraft.orbit]\nsemi_major_axis_m = 7000\n")),
+            "scene.toml:6:1: spacecraft[0].orbit: got an orbit that begins 7000 m from the Earth's "
+            "centre, expected one that begins above its surface, 6.357e6 m from the centre at the "
+            "poles; try lengths in metres, or gravity_m3_s2 of another body");
+  EXPECT_EQ(refusal(in_spacecraft(
+                "[spacecraft.orbit]\nsemi_major_axis_m = 2e6\ngravity_m3_s2 = 4.9e12\n")),
+            "")
+      << "the Moon's";
+}
+
+TEST(SceneOrbit, that_leads_into_the_earth_later_is_warned_of) {
+  const auto report = [](const std::string& lines) {
+    return report::scene_report(parse(
+        in_spacecraft("[spacecraft.orbit]\nsemi_major_axis_m = 7e6\n" + lines), "scene.toml"));
+  };
+  const std::string rocket = report("eccentricity = 0.1\nmean_anomaly_rad = 3\n");
+  EXPECT_NE(rocket.find("WARNING   its orbit comes within 6.3e+06 m of the centre"),
+            std::string::npos)
+      << rocket;
+  EXPECT_EQ(report("eccentricity = 0.01\n").find("WARNING"), std::string::npos);
 }
 
 TEST(SceneOrbit, is_asked_for_by_gravity) {

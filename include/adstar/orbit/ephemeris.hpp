@@ -43,6 +43,8 @@ struct Ephemeris {
   int degree = 7;
   T gravity_m3_s2 = T(kEarthGravity_m3_s2);
   T least_distance_m{}, greatest_speed_m_s{};  ///< over the span, some margin taken
+  /// |r'' + μ r/r³| by μ/r², the largest that was seen. Of an orbit it is small, of rows too far apart it is not.
+  T off_gravity{};
 
   /// Epochs that one polynomial goes through.
   std::size_t nodes() const {
@@ -198,21 +200,34 @@ OrbitPosition<T> position_at(const Ephemeris<T>& table, const T& t_s) {
 }
 
 /// A table without a defect, ready to be shared. Sampled eight times between epochs: what the distance may fall by
-/// between samples δ apart is at most δ²/8 of its acceleration, taken as twice μ/r².
+/// between samples δ apart is at most δ²/8 of its acceleration, taken as twice μ/r², or twice what the samples'
+/// own second differences come to.
 template <class T>
 std::shared_ptr<const Ephemeris<T>> make_ephemeris(Ephemeris<T> table) {
   constexpr int kSamples = 8;
   T least = norm(table.rows.front().r_I), fastest = norm(table.rows.front().v_I), widest{};
+  T strongest{}, off{};
   for (std::size_t i = 1; i < table.rows.size(); ++i) {
     const T begin = table.rows[i - 1].t_s, gap = (table.rows[i].t_s - begin) / T(kSamples);
     widest = std::max(widest, gap);
+    Vec3<T> before{}, last = table.rows[i - 1].r_I;
     for (int k = 1; k <= kSamples; ++k) {
       const OrbitMotion<T> motion = motion_at(table, T(begin + T(k) * gap));
-      least = std::min(least, T(norm(motion.r_I)));
+      const T distance = norm(motion.r_I);
+      least = std::min(least, distance);
       fastest = std::max(fastest, T(norm(motion.v_I)));
+      if (k > 1) {
+        const Vec3<T> r2 = (T(1) / (gap * gap)) * ((motion.r_I - last) - (last - before));
+        const T d = norm(last), gravity = table.gravity_m3_s2 / d / d;
+        strongest = std::max(strongest, T(norm(r2)));
+        off = std::max(off, T(norm(r2 + (gravity / d) * last) / gravity));
+      }
+      before = last;
+      last = motion.r_I;
     }
   }
-  const T acceleration = T(2) * table.gravity_m3_s2 / least / least;
+  table.off_gravity = off;
+  const T acceleration = T(2) * std::max(strongest, T(table.gravity_m3_s2 / least / least));
   const T fall = widest * widest / T(8) * acceleration;
   table.least_distance_m = std::max(T(0.5) * least, T(least - fall));
   table.greatest_speed_m_s = fastest + T(0.5) * widest * acceleration;
