@@ -93,6 +93,9 @@ void export_motion(const bag::Recording& recording, Wanted& wanted, Output& outp
       });
   print(joiner.rest());
   say_unreadable(unreadable, kVerb);
+  if (messages == 0) {
+    require_motion(recording);
+  }
 }
 
 const TopicTable& table_of(const std::string& topic) {
@@ -162,19 +165,21 @@ std::vector<report::AttitudePoint> points_of(const bag::Recording& recording,
 }
 
 /// The one asked for, or the only one there is.
-std::string only_spacecraft(const Runs& runs, const Options& options) {
+std::string only_spacecraft(const bag::Recording& recording, const Runs& runs,
+                            const Options& options) {
   if (options.spacecraft.size() > 1) {
     throw Failure(kUsage, "an AEM is about one spacecraft; give one --spacecraft");
+  }
+  if (runs.empty()) {
+    require_motion(recording);
+    throw Failure(kUsage,
+                  "there is no attitude_state in the recording; was it left out by --topic?");
   }
   Wanted wanted(options.spacecraft);
   for (const auto& [spacecraft, run] : runs) {
     wanted(spacecraft);
   }
   wanted.require_all_seen();
-  if (runs.empty()) {
-    throw Failure(kUsage,
-                  "there is no attitude_state in the recording; was it left out by --topic?");
-  }
   if (options.spacecraft.empty() && runs.size() > 1) {
     const std::vector<std::string_view> known(wanted.seen().begin(), wanted.seen().end());
     throw Failure(kUsage, fmt::format("an AEM is about one spacecraft, and there are {}; give one "
@@ -204,7 +209,7 @@ void export_aem(const bag::Recording& recording, const Options& options, Output&
   report::AemHeader header;
   header.epoch = epoch_of(options);
   const Runs runs = runs_in(recording);
-  header.object_name = only_spacecraft(runs, options);
+  header.object_name = only_spacecraft(recording, runs, options);
   header.object_id = options.object_id;
   header.originator = options.originator;
   header.inertial_frame = options.frame;
@@ -225,6 +230,11 @@ int export_recording(const Options& options) {
       throw Failure(kUsage, "--topic: an AEM is made from attitude_state alone; leave it out");
     }
   }
+  if (options.topic == "fleet_state" && !options.spacecraft.empty()) {
+    throw Failure(kUsage,
+                  "--spacecraft: a row of fleet_state has a spacecraft's index in its scene and no "
+                  "name; leave it out, and choose by spacecraft_index");
+  }
   const bag::Recording recording = open_recording(options.recording, kVerb);
   Output output = options.output.empty() ? Output::to_stdout() : Output::to_file(options.output);
   Wanted wanted(options.spacecraft);
@@ -239,7 +249,7 @@ int export_recording(const Options& options) {
   } catch (const bag::Error& error) {
     throw Failure(kFailed, error.what());
   }
-  if (options.format == "csv" && options.topic != "fleet_state") {
+  if (options.format == "csv") {
     wanted.require_all_seen();
   }
   output.commit();

@@ -123,18 +123,15 @@ int plot_recording(const Options& options) {
   } catch (const bag::Error& error) {
     throw Failure(kFailed, error.what());
   }
+  if (histories.empty()) {
+    require_motion(recording);
+  }
   for (const std::string& name : options.spacecraft) {
     if (!histories.contains(name)) {
       throw Failure(kUsage, fmt::format("there is no '{}' in the recording; `adstar export {} --to "
                                         "csv` shows who is",
                                         name, options.recording));
     }
-  }
-  if (histories.empty()) {
-    throw Failure(
-        kUsage,
-        "there is no attitude_state or momentum_state in the recording; was it left out by "
-        "--topic?");
   }
   std::vector<plot::Panel> panels;
   std::size_t drawn = 0;

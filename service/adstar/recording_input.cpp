@@ -40,6 +40,28 @@ bag::Recording open_recording(const std::string& directory, const char* verb) {
   }
 }
 
+void require_motion(const bag::Recording& recording) {
+  bool has_fleet = false;
+  for (const bag::TopicCount& count : recording.count().topics) {
+    const std::string& name = count.topic.name;
+    if (count.messages == 0) {
+      continue;
+    }
+    if (name == recorded_name<adstar_AttitudeState>() ||
+        name == recorded_name<adstar_MomentumState>()) {
+      return;
+    }
+    has_fleet = has_fleet || name == recorded_name<adstar_FleetState>();
+  }
+  throw Failure(kUsage,
+                has_fleet ? "there is no attitude_state or momentum_state in the recording, only "
+                            "fleet_state: try `adstar export --to csv --topic fleet_state`; "
+                            "spacecraft that the scene names in [telemetry] spacecraft have topics "
+                            "of their own"
+                          : "there is no attitude_state or momentum_state in the recording; was it "
+                            "left out by --topic?");
+}
+
 void say_unreadable(std::uint64_t count, const char* verb) {
   if (count > 0) {
     fmt::print(stderr,

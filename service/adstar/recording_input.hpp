@@ -33,6 +33,9 @@ std::uint64_t for_each_sample(const bag::Recording& recording, Use&& use) {
   return unreadable;
 }
 
+/// Throws Failure that says what helps when nothing in it is attitude or momentum of a single spacecraft.
+void require_motion(const bag::Recording& recording);
+
 /// On stderr, when there are any: recorded by another build of the types, or damaged.
 void say_unreadable(std::uint64_t count, const char* verb);
 

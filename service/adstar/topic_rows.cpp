@@ -131,7 +131,7 @@ bool append_sample(std::string& text, std::span<const std::byte> payload, const 
   });
 }
 
-/// A line a member; the roster has their names.
+/// A line a member, whoever is wanted: the roster has their names.
 bool append_fleet(std::string& text, std::span<const std::byte> payload, const Wants& /*wants*/) {
   return dds::with_sample<adstar_FleetState>(payload, [&](const adstar_FleetState& s) {
     for (std::uint32_t i = 0; i < s.members._length; ++i) {

@@ -33,6 +33,49 @@ TEST(Export, keeps_rows_whole_and_in_their_order_though_the_clock_was_set_back) 
   EXPECT_EQ(parse_aem(export_aem(recording).out).lines.size(), 600U);
 }
 
+/// Of a hundred spacecraft that have no topics of their own.
+void add_fleet(MadeRecording& recording) {
+  std::vector<adstar_FleetMember> members(100);
+  adstar_FleetState fleet{};
+  dds::set_text(fleet.service, "fly");
+  fleet.members._length = fleet.members._maximum = 100;
+  fleet.members._buffer = members.data();
+  recording.add(fleet);
+}
+
+TEST(Recording, of_a_fleet_alone_says_which_topic_has_it) {
+  MadeRecording recording;
+  add_fleet(recording);
+  recording.finish();
+  const std::vector<std::string> csv{"export", recording.directory(), "--to", "csv"};
+  for (const Outcome& motion :
+       {client(csv), export_aem(recording), export_aem(recording, {"--spacecraft", "cube7"}),
+        client({"plot", recording.directory()}),
+        client({"plot", recording.directory(), "--spacecraft", "cube7"})}) {
+    EXPECT_EQ(motion.code, 2);
+    EXPECT_EQ(motion.out, "");
+    EXPECT_NE(motion.err.find("--topic fleet_state"), std::string::npos) << motion.err;
+  }
+  std::vector<std::string> fleet = csv;
+  fleet.insert(fleet.end(), {"--topic", "fleet_state"});
+  const Outcome rows = client(fleet);
+  EXPECT_EQ(rows.code, 0) << rows.err;
+  EXPECT_EQ(lines_of(rows.out).size(), 101U);
+  fleet.insert(fleet.end(), {"--spacecraft", "cube7"});
+  const Outcome named = client(fleet);
+  EXPECT_EQ(named.code, 2);
+  EXPECT_EQ(named.out, "");
+  EXPECT_NE(named.err.find("--spacecraft: "), std::string::npos) << named.err;
+}
+
+TEST(Recording, without_motion_asks_whether_it_was_left_out) {
+  MadeRecording recording;
+  recording.finish();
+  const Outcome csv = client({"export", recording.directory(), "--to", "csv"});
+  EXPECT_EQ(csv.code, 2);
+  EXPECT_NE(csv.err.find("left out by --topic?"), std::string::npos) << csv.err;
+}
+
 TEST(ExportAem, goes_on_after_a_daemon_that_had_stood_still_said_something_old) {
   MadeRecording recording;
   recording.fly(1, 500);
