@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <map>
 #include <memory>
 #include <set>
 
@@ -12,8 +11,8 @@
 
 #include "service/adstar/failure.hpp"
 #include "service/adstar/joiner.hpp"
-#include "service/adstar/last_run.hpp"
 #include "service/adstar/output.hpp"
+#include "service/adstar/recorded_runs.hpp"
 #include "service/adstar/recording_input.hpp"
 #include "service/adstar/topic_rows.hpp"
 #include "service/adstar/usage.hpp"
@@ -123,18 +122,6 @@ void export_topic(const bag::Recording& recording, const TopicTable& table, Want
   say_unreadable(unreadable, kVerb);
 }
 
-using Runs = std::map<std::string, RunFinder, std::less<>>;
-
-/// Of every spacecraft that has attitudes.
-Runs runs_in(const bag::Recording& recording) {
-  Runs runs;
-  for_each_sample<adstar_AttitudeState>(
-      recording, [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
-        runs[std::string(dds::text_of(s.spacecraft))].add(s.time_ns);
-      });
-  return runs;
-}
-
 /// The last run of one spacecraft, in time.
 std::vector<report::AttitudePoint> points_of(const bag::Recording& recording,
                                              const std::string& spacecraft, const RunSpan& run) {
@@ -148,19 +135,9 @@ std::vector<report::AttitudePoint> points_of(const bag::Recording& recording,
     }
   };
   say_unreadable(for_each_sample<adstar_AttitudeState>(recording, add), kVerb);
-  if (reader.before() > 0) {
-    fmt::print(
-        stderr,
-        "adstar export: simulation time began anew in this recording; the last run is exported, "
-        "{} attitudes before it are not\n",
-        reader.before());
-  }
-  if (reader.older() > 0) {
-    fmt::print(stderr,
-               "adstar export: attitudes left out, older than those said before them: {}; a daemon "
-               "took over, or had stood still\n",
-               reader.older());
-  }
+  LeftOut left_out;
+  left_out.add(reader);
+  say_left_out(left_out, kVerb);
   return points;
 }
 
@@ -208,7 +185,7 @@ scene::TaiDate epoch_of(const Options& options) {
 void export_aem(const bag::Recording& recording, const Options& options, Output& output) {
   report::AemHeader header;
   header.epoch = epoch_of(options);
-  const Runs runs = runs_in(recording);
+  const Runs runs = runs_of<adstar_AttitudeState>(recording);
   header.object_name = only_spacecraft(recording, runs, options);
   header.object_id = options.object_id;
   header.originator = options.originator;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include "service/adstar/failure.hpp"
 #include "service/adstar/output.hpp"
+#include "service/adstar/recorded_runs.hpp"
 #include "service/adstar/recording_input.hpp"
 #include "service/adstar/services.hpp"
 #include "service/adstar/thinned.hpp"
@@ -38,6 +40,10 @@ using Vector = std::array<std::vector<plot::Point>, 3>;
 
 /// What is drawn of one spacecraft, over simulation time [s].
 struct History {
+  History(const RunSpan& momentum, const RunSpan& attitude)
+      : momentum_run(momentum), attitude_run(attitude) {}
+
+  RunReader momentum_run, attitude_run;
   Vector momentum_I, omega_B, momentum_residual_I;
   std::vector<plot::Point> energy_residual;
 };
@@ -50,39 +56,85 @@ void add(Vector& series, double t, const adstar_Vector3& v) {
 
 using Histories = std::map<std::string, History, std::less<>>;
 
-/// Null: not wanted, or more spacecraft than memory is to hold.
-History* history_of(Histories& histories, std::string_view spacecraft,
-                    const std::set<std::string, std::less<>>& wanted) {
-  constexpr std::size_t kMostHeld = 1000;
-  const auto known = histories.find(spacecraft);
-  if (known != histories.end()) {
-    return &known->second;
+using Names = std::set<std::string>;
+
+/// Those asked for, or the first of them. Throws Failure when somebody asked for is not there.
+Names drawn(const Names& known, const Options& options) {
+  for (const std::string& name : options.spacecraft) {
+    if (!known.contains(name)) {
+      throw Failure(kUsage, fmt::format("there is no '{}' in the recording; `adstar export {} --to "
+                                        "csv` shows who is",
+                                        name, options.recording));
+    }
   }
-  const bool wants = wanted.empty() || wanted.contains(spacecraft);
-  return wants && histories.size() < kMostHeld ? &histories[std::string(spacecraft)] : nullptr;
+  if (!options.spacecraft.empty()) {
+    return {options.spacecraft.begin(), options.spacecraft.end()};
+  }
+  if (known.size() <= kMostDrawn) {
+    return known;
+  }
+  fmt::print(stderr,
+             "adstar plot: the first {} of {} spacecraft are drawn; --spacecraft chooses others\n",
+             kMostDrawn, known.size());
+  return {known.begin(), std::next(known.begin(), kMostDrawn)};
+}
+
+/// Of those who are drawn, still empty.
+Histories chosen_histories(const bag::Recording& recording, const Options& options) {
+  const Runs momentum = runs_of<adstar_MomentumState>(recording);
+  const Runs attitude = runs_of<adstar_AttitudeState>(recording);
+  Names known;
+  for (const Runs* runs : {&momentum, &attitude}) {
+    for (const auto& [name, run] : *runs) {
+      known.insert(name);
+    }
+  }
+  if (known.empty()) {
+    require_motion(recording);
+    throw Failure(kFailed,
+                  "no attitude or momentum in the recording can be read; was it made by another "
+                  "version of adstar?");
+  }
+  const auto last_run = [](const Runs& runs, const std::string& name) {
+    const auto found = runs.find(name);
+    return found == runs.end() ? RunSpan{} : found->second.last_run();
+  };
+  Histories histories;
+  for (const std::string& name : drawn(known, options)) {
+    histories.try_emplace(name, last_run(momentum, name), last_run(attitude, name));
+  }
+  return histories;
 }
 
 Histories read_histories(const bag::Recording& recording, const Options& options) {
-  const std::set<std::string, std::less<>> wanted(options.spacecraft.begin(),
-                                                  options.spacecraft.end());
-  Histories histories;
+  Histories histories = chosen_histories(recording, options);
+  const auto seconds = [](std::int64_t time_ns) {
+    return static_cast<double>(time_ns) * kNanosecond_s;
+  };
   std::uint64_t unreadable = for_each_sample<adstar_MomentumState>(
       recording, [&](const adstar_MomentumState& s, std::int64_t /*received_ns*/) {
-        if (History* const h = history_of(histories, dds::text_of(s.spacecraft), wanted)) {
-          const double t = static_cast<double>(s.time_ns) * kNanosecond_s;
-          add(h->momentum_I, t, s.momentum_inertial_n_m_s);
-          add(h->momentum_residual_I, t, s.momentum_residual_inertial_n_m_s);
-          h->energy_residual.push_back({t, s.energy_residual_j});
+        const auto known = histories.find(dds::text_of(s.spacecraft));
+        if (known != histories.end() && known->second.momentum_run.takes(s.time_ns)) {
+          History& h = known->second;
+          add(h.momentum_I, seconds(s.time_ns), s.momentum_inertial_n_m_s);
+          add(h.momentum_residual_I, seconds(s.time_ns), s.momentum_residual_inertial_n_m_s);
+          h.energy_residual.push_back({seconds(s.time_ns), s.energy_residual_j});
         }
       });
   unreadable += for_each_sample<adstar_AttitudeState>(
       recording, [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
-        if (History* const h = history_of(histories, dds::text_of(s.spacecraft), wanted)) {
-          add(h->omega_B, static_cast<double>(s.time_ns) * kNanosecond_s,
-              s.angular_velocity_body_rad_s);
+        const auto known = histories.find(dds::text_of(s.spacecraft));
+        if (known != histories.end() && known->second.attitude_run.takes(s.time_ns)) {
+          add(known->second.omega_B, seconds(s.time_ns), s.angular_velocity_body_rad_s);
         }
       });
   say_unreadable(unreadable, kVerb);
+  LeftOut left_out;
+  for (const auto& [name, history] : histories) {
+    left_out.add(history.momentum_run);
+    left_out.add(history.attitude_run);
+  }
+  say_left_out(left_out, kVerb);
   return histories;
 }
 
@@ -123,27 +175,8 @@ int plot_recording(const Options& options) {
   } catch (const bag::Error& error) {
     throw Failure(kFailed, error.what());
   }
-  if (histories.empty()) {
-    require_motion(recording);
-  }
-  for (const std::string& name : options.spacecraft) {
-    if (!histories.contains(name)) {
-      throw Failure(kUsage, fmt::format("there is no '{}' in the recording; `adstar export {} --to "
-                                        "csv` shows who is",
-                                        name, options.recording));
-    }
-  }
   std::vector<plot::Panel> panels;
-  std::size_t drawn = 0;
   for (const auto& [name, history] : histories) {
-    if (options.spacecraft.empty() && drawn == kMostDrawn) {
-      fmt::print(
-          stderr,
-          "adstar plot: the first {} of {} spacecraft are drawn; --spacecraft chooses others\n",
-          kMostDrawn, histories.size());
-      break;
-    }
-    ++drawn;
     for (plot::Panel& panel : panels_of(printable(name), history)) {
       panels.push_back(std::move(panel));
     }

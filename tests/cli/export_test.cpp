@@ -99,7 +99,25 @@ TEST(ExportAem, is_of_the_last_run_where_a_daemon_began_anew) {
   const Aem read = parse_aem(aem.out);
   EXPECT_EQ(read.lines.size(), 300U);
   EXPECT_EQ(read.of("STOP_TIME"), "2026-01-01T00:00:03.000000000");
-  EXPECT_NE(aem.err.find("500 attitudes before it are not"), std::string::npos) << aem.err;
+  EXPECT_NE(aem.err.find("500 samples before it are not"), std::string::npos) << aem.err;
+}
+
+/// The drawing, without the name of the recording above it.
+std::string below_title(const std::string& svg) { return svg.substr(svg.find("</text>")); }
+
+TEST(Plot, is_of_the_last_run_where_a_daemon_began_anew) {
+  MadeRecording anew, alone;
+  anew.fly(1, 500);
+  anew.fly(1, 300);
+  anew.finish();
+  alone.fly(1, 300);
+  alone.finish();
+  const Outcome drawn = client({"plot", anew.directory(), "--output", anew.out("p.svg")});
+  ASSERT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_NE(drawn.err.find("1,000 samples before it are not"), std::string::npos) << drawn.err;
+  const Outcome expected = client({"plot", alone.directory(), "--output", alone.out("p.svg")});
+  EXPECT_EQ(expected.err, "");
+  EXPECT_EQ(below_title(read_text(anew.out("p.svg"))), below_title(read_text(alone.out("p.svg"))));
 }
 
 }  // namespace
