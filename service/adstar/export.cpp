@@ -122,25 +122,6 @@ void export_topic(const bag::Recording& recording, const TopicTable& table, Want
   say_unreadable(unreadable, kVerb);
 }
 
-/// The last run of one spacecraft, in time.
-std::vector<report::AttitudePoint> points_of(const bag::Recording& recording,
-                                             const std::string& spacecraft, const RunSpan& run) {
-  std::vector<report::AttitudePoint> points;
-  RunReader reader(run);
-  const auto add = [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
-    if (dds::text_of(s.spacecraft) == spacecraft && reader.takes(s.time_ns)) {
-      const adstar_Quaternion& q = s.attitude_body_to_inertial;
-      const adstar_Vector3& omega = s.angular_velocity_body_rad_s;
-      points.push_back({s.time_ns, {q.w, q.x, q.y, q.z}, {omega.x, omega.y, omega.z}});
-    }
-  };
-  say_unreadable(for_each_sample<adstar_AttitudeState>(recording, add), kVerb);
-  LeftOut left_out;
-  left_out.add(reader);
-  say_left_out(left_out, kVerb);
-  return points;
-}
-
 /// The one asked for, or the only one there is.
 std::string only_spacecraft(const bag::Recording& recording, const Runs& runs,
                             const Options& options) {
@@ -192,11 +173,25 @@ void export_aem(const bag::Recording& recording, const Options& options, Output&
   header.inertial_frame = options.frame;
   header.creation_utc = fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(std::time(nullptr)));
   const RunSpan run = runs.at(header.object_name).last_run();
+  RunReader reader(run);
   try {
-    output.buffer() = report::aem_text(header, points_of(recording, header.object_name, run));
+    report::AemWriter aem(header, run.first_ns, run.last_ns, output.buffer());
+    const auto add = [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
+      if (dds::text_of(s.spacecraft) == header.object_name && reader.takes(s.time_ns)) {
+        const adstar_Quaternion& q = s.attitude_body_to_inertial;
+        const adstar_Vector3& omega = s.angular_velocity_body_rad_s;
+        aem.add({s.time_ns, {q.w, q.x, q.y, q.z}, {omega.x, omega.y, omega.z}});
+        output.flush_if_full();
+      }
+    };
+    say_unreadable(for_each_sample<adstar_AttitudeState>(recording, add), kVerb);
+    aem.end();
   } catch (const std::invalid_argument& error) {
     throw Failure(kFailed, error.what());
   }
+  LeftOut left_out;
+  left_out.add(reader);
+  say_left_out(left_out, kVerb);
 }
 
 int export_recording(const Options& options) {

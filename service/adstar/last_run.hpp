@@ -46,6 +46,8 @@ class RunReader {
   /// It is of the run, and newer than all before it.
   bool takes(std::int64_t time_ns);
 
+  /// There is any to take.
+  bool heard() const { return run_.end > run_.begin; }
   /// Of earlier runs.
   std::uint64_t before() const { return run_.begin; }
   /// Of the run, but older than what had been said.

@@ -36,22 +36,40 @@ struct Options {
   std::vector<std::string> spacecraft;
 };
 
-using Vector = std::array<std::vector<plot::Point>, 3>;
+constexpr double seconds(std::int64_t time_ns) {
+  return static_cast<double>(time_ns) * kNanosecond_s;
+}
+
+/// For simulation time over one run [s].
+Thinned series_over(const RunSpan& run) {
+  return {seconds(run.first_ns), seconds(run.last_ns), kMostStretches};
+}
+
+/// Three components.
+using Vector = std::array<Thinned, 3>;
+Vector vector_over(const RunSpan& run) {
+  return {series_over(run), series_over(run), series_over(run)};
+}
 
 /// What is drawn of one spacecraft, over simulation time [s].
 struct History {
   History(const RunSpan& momentum, const RunSpan& attitude)
-      : momentum_run(momentum), attitude_run(attitude) {}
+      : momentum_run(momentum),
+        attitude_run(attitude),
+        momentum_I(vector_over(momentum)),
+        omega_B(vector_over(attitude)),
+        momentum_residual_I(vector_over(momentum)),
+        energy_residual(series_over(momentum)) {}
 
   RunReader momentum_run, attitude_run;
   Vector momentum_I, omega_B, momentum_residual_I;
-  std::vector<plot::Point> energy_residual;
+  Thinned energy_residual;
 };
 
 void add(Vector& series, double t, const adstar_Vector3& v) {
-  series[0].push_back({t, v.x});
-  series[1].push_back({t, v.y});
-  series[2].push_back({t, v.z});
+  series[0].add({t, v.x});
+  series[1].add({t, v.y});
+  series[2].add({t, v.z});
 }
 
 using Histories = std::map<std::string, History, std::less<>>;
@@ -108,9 +126,6 @@ Histories chosen_histories(const bag::Recording& recording, const Options& optio
 
 Histories read_histories(const bag::Recording& recording, const Options& options) {
   Histories histories = chosen_histories(recording, options);
-  const auto seconds = [](std::int64_t time_ns) {
-    return static_cast<double>(time_ns) * kNanosecond_s;
-  };
   std::uint64_t unreadable = for_each_sample<adstar_MomentumState>(
       recording, [&](const adstar_MomentumState& s, std::int64_t /*received_ns*/) {
         const auto known = histories.find(dds::text_of(s.spacecraft));
@@ -118,7 +133,7 @@ Histories read_histories(const bag::Recording& recording, const Options& options
           History& h = known->second;
           add(h.momentum_I, seconds(s.time_ns), s.momentum_inertial_n_m_s);
           add(h.momentum_residual_I, seconds(s.time_ns), s.momentum_residual_inertial_n_m_s);
-          h.energy_residual.push_back({seconds(s.time_ns), s.energy_residual_j});
+          h.energy_residual.add({seconds(s.time_ns), s.energy_residual_j});
         }
       });
   unreadable += for_each_sample<adstar_AttitudeState>(
@@ -142,24 +157,24 @@ plot::Panel panel(const std::string& title, const std::string& label, const Vect
   constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
   plot::Panel panel{title, {"simulation time [s]"}, {label}, {}};
   for (std::size_t i = 0; i < vector.size(); ++i) {
-    panel.series.push_back({kNames[i], thinned(vector[i], kMostStretches), false});
+    panel.series.push_back({kNames[i], vector[i].points(), false});
   }
   return panel;
 }
 
 std::vector<plot::Panel> panels_of(const std::string& name, const History& h) {
   std::vector<plot::Panel> panels;
-  if (!h.momentum_I[0].empty()) {
+  if (h.momentum_run.heard()) {
     panels.push_back(
         panel(name + ": angular momentum, inertial frame", "H_I [N m s]", h.momentum_I));
   }
-  if (!h.omega_B[0].empty()) {
+  if (h.attitude_run.heard()) {
     panels.push_back(panel(name + ": angular velocity, body frame", "omega_B [rad/s]", h.omega_B));
   }
-  if (!h.energy_residual.empty()) {
+  if (h.momentum_run.heard()) {
     plot::Panel energy{
         name + ": energy residual", {"simulation time [s]"}, {"E - E_0 - W [J]"}, {}};
-    energy.series.push_back({"energy residual", thinned(h.energy_residual, kMostStretches), false});
+    energy.series.push_back({"energy residual", h.energy_residual.points(), false});
     panels.push_back(std::move(energy));
     panels.push_back(panel(name + ": momentum residual, inertial frame",
                            "H_I - H_0 - impulse [N m s]", h.momentum_residual_I));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -66,20 +67,11 @@ std::string aem_name(const std::string& text) {
   return name;
 }
 
-std::string aem_text(const AemHeader& header, const std::vector<AttitudePoint>& points) {
-  if (points.empty()) {
-    throw std::invalid_argument("there is no attitude to write");
-  }
-  const auto unordered = std::adjacent_find(
-      points.begin(), points.end(), [](const AttitudePoint& earlier, const AttitudePoint& later) {
-        return later.time_ns <= earlier.time_ns;
-      });
-  if (unordered != points.end()) {
-    throw std::invalid_argument(
-        fmt::format("time does not rise after {} s", seconds_text(unordered->time_ns)));
-  }
+AemWriter::AemWriter(AemHeader header, std::int64_t first_ns, std::int64_t last_ns,
+                     std::string& text)
+    : header_(std::move(header)), first_ns_(first_ns), last_ns_(last_ns), text_(text) {
   // Tables 4-2 and 4-3, in their order.
-  std::string text = fmt::format(
+  text_ += fmt::format(
       "CCSDS_AEM_VERS = 2.0\n"
       "CREATION_DATE = {}\n"
       "ORIGINATOR = {}\n"
@@ -97,14 +89,31 @@ std::string aem_text(const AemHeader& header, const std::vector<AttitudePoint>& 
       "META_STOP\n"
       "\n"
       "DATA_START\n",
-      header.creation_utc, aem_name(header.originator), aem_name(header.object_name),
-      aem_name(header.object_id), header.inertial_frame, header.body_frame,
-      when(header, points.front().time_ns), when(header, points.back().time_ns), header.body_frame);
-  for (const AttitudePoint& point : points) {
-    require_finite(point);
-    append_line(text, header, point);
+      header_.creation_utc, aem_name(header_.originator), aem_name(header_.object_name),
+      aem_name(header_.object_id), header_.inertial_frame, header_.body_frame,
+      when(header_, first_ns_), when(header_, last_ns_), header_.body_frame);
+}
+
+void AemWriter::add(const AttitudePoint& point) {
+  if (newest_ns_ ? point.time_ns <= *newest_ns_ : point.time_ns != first_ns_) {
+    throw std::invalid_argument(
+        newest_ns_ ? fmt::format("time does not rise after {} s", seconds_text(*newest_ns_))
+                   : fmt::format("the attitudes begin at {} s, and not at {} s",
+                                 seconds_text(point.time_ns), seconds_text(first_ns_)));
   }
-  return text + "DATA_STOP\n";
+  require_finite(point);
+  append_line(text_, header_, point);
+  newest_ns_ = point.time_ns;
+}
+
+void AemWriter::end() {
+  if (newest_ns_ != last_ns_) {
+    throw std::invalid_argument(newest_ns_
+                                    ? fmt::format("the attitudes end at {} s, and not at {} s",
+                                                  seconds_text(*newest_ns_), seconds_text(last_ns_))
+                                    : std::string("there is no attitude to write"));
+  }
+  text_ += "DATA_STOP\n";
 }
 
 }  // namespace adstar::report

@@ -9,8 +9,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "service/scene/time_scales.hpp"
 
@@ -32,9 +32,25 @@ struct AemHeader {
   scene::TaiDate epoch;  ///< of simulation time 0
 };
 
-/// The points in increasing time, none twice (4.2.4.8.1); at least one. Throws std::invalid_argument when they are
-/// not, when one is not finite (6.8.5), or when a date is beyond the calendar.
-std::string aem_text(const AemHeader& header, const std::vector<AttitudePoint>& points);
+/// Appends a message to `text`, piece by piece: the caller may empty it in between. Throws std::invalid_argument for what
+/// the standard has no words for.
+class AemWriter {
+ public:
+  /// Header and metadata, for attitudes from first_ns to last_ns. Throws when a date is beyond the calendar.
+  AemWriter(AemHeader header, std::int64_t first_ns, std::int64_t last_ns, std::string& text);
+
+  /// In increasing time, none twice (4.2.4.8.1), finite (6.8.5).
+  void add(const AttitudePoint& point);
+
+  /// The message is whole: its last attitude was that of last_ns.
+  void end();
+
+ private:
+  AemHeader header_;
+  std::int64_t first_ns_, last_ns_;
+  std::optional<std::int64_t> newest_ns_;
+  std::string& text_;
+};
 
 /// 6.8.4.2: sixteen significant digits, "-1.234567890123456E-01".
 std::string aem_number(double value);

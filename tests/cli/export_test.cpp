@@ -1,5 +1,7 @@
 // Recordings that were made up, exported: what a daemon says twice, late, or anew.
 
+#include <sys/resource.h>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -117,7 +119,31 @@ TEST(Plot, is_of_the_last_run_where_a_daemon_began_anew) {
   EXPECT_NE(drawn.err.find("1,000 samples before it are not"), std::string::npos) << drawn.err;
   const Outcome expected = client({"plot", alone.directory(), "--output", alone.out("p.svg")});
   EXPECT_EQ(expected.err, "");
-  EXPECT_EQ(below_title(read_text(anew.out("p.svg"))), below_title(read_text(alone.out("p.svg"))));
+  EXPECT_TRUE(below_title(read_text(anew.out("p.svg"))) ==
+              below_title(read_text(alone.out("p.svg"))));
+}
+
+/// Of all programs that this test has run so far, the most that one had at once.
+long most_memory_kB() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return usage.ru_maxrss;
+}
+
+TEST(Recording, of_any_length_is_exported_and_plotted_in_the_same_memory) {
+  const auto export_and_plot = [](std::uint64_t steps) {
+    MadeRecording recording;
+    recording.fly(1, steps);
+    recording.finish();
+    const Outcome aem = export_aem(recording, {"--output", recording.out("a.aem")});
+    EXPECT_EQ(aem.code, 0) << aem.err;
+    const Outcome plot =
+        client({"plot", recording.directory(), "--output", recording.out("p.svg")});
+    EXPECT_EQ(plot.code, 0) << plot.err;
+    return most_memory_kB();
+  };
+  const long short_kB = export_and_plot(1'000);
+  EXPECT_LT(export_and_plot(100'000), short_kB + 8'000);
 }
 
 }  // namespace

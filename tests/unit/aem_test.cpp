@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +25,17 @@ AemHeader some_header(std::string_view epoch = "2026-01-01T00:00:00Z") {
 }
 
 AttitudePoint at(std::int64_t time_ns) { return {time_ns, {1, 0, 0, 0}, {0, 0, 0}}; }
+
+std::string aem_text(const AemHeader& header, const std::vector<AttitudePoint>& points) {
+  std::string text;
+  AemWriter aem(header, points.empty() ? 0 : points.front().time_ns,
+                points.empty() ? 0 : points.back().time_ns, text);
+  for (const AttitudePoint& point : points) {
+    aem.add(point);
+  }
+  aem.end();
+  return text;
+}
 
 TEST(AemText, is_what_the_standard_orders) {
   const AttitudePoint point{kSecond / 2, {0.5, -0.5, 0.5, 0.5}, {0.1, -0.0, 1e-12}};
@@ -98,6 +110,18 @@ TEST(AemText, refuses_what_the_standard_has_no_words_for) {
   EXPECT_THROW(aem_text(some_header(), {{0, {nan, 0, 0, 0}, {}}}), std::invalid_argument);
   EXPECT_THROW(aem_text(some_header("9999-12-31T23:59:59Z"), {at(2 * kSecond)}),
                std::invalid_argument);
+}
+
+TEST(AemText, is_of_the_time_that_its_metadata_says) {
+  std::string text;
+  AemWriter aem(some_header(), 1, 3, text);
+  EXPECT_THROW(aem.add(at(2)), std::invalid_argument);
+  aem.add(at(1));
+  aem.add(at(2));
+  EXPECT_THROW(aem.end(), std::invalid_argument);
+  aem.add(at(3));
+  aem.end();
+  EXPECT_EQ(testing::parse_aem(text).lines.size(), 3U);
 }
 
 TEST(AemName, is_of_one_case) {
