@@ -7,9 +7,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// And those above it.
 void make_directory(const fs::path& directory) {
   std::error_code error;
-  const bool made = fs::create_directory(directory, error);
+  fs::create_directories(directory.parent_path(), error);
+  const bool made = !error && fs::create_directory(directory, error);
   if (error) {
     throw Error(fmt::format("cannot make '{}': {}; choose a directory that you may write to",
                             directory.string(), error.message()));

@@ -24,7 +24,7 @@ struct Rolling {
 
 class RollingWriter {
  public:
-  /// Makes the directory; throws Error when it is there already.
+  /// Makes the directory, and those above it; throws Error when it is there already.
   RollingWriter(const std::filesystem::path& directory, std::vector<TopicInfo> topics,
                 Rolling rolling);
 

@@ -301,6 +301,13 @@ TEST_F(Bags, nothing_is_written_over_and_nothing_else_is_taken_for_a_recording) 
   EXPECT_THROW(Recording(home_ / "empty").for_each({"/a"}, [](const Message&) {}), Error);
 }
 
+TEST_F(Bags, the_directories_above_a_recording_are_made_with_it) {
+  RollingWriter(home_ / "runs" / "may" / "monday", kTopics, {}).finish();
+  EXPECT_TRUE(fs::exists(home_ / "runs" / "may" / "monday" / "monday_0.db3"));
+  std::ofstream(home_ / "file").flush();
+  EXPECT_THROW(RollingWriter(home_ / "file" / "monday", kTopics, {}), Error);
+}
+
 TEST(Intake, counts_what_does_not_fit_and_gives_out_the_rest) {
   Intake intake(2, 25);
   const std::vector<std::byte> ten(10);
