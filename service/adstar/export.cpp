@@ -1,6 +1,7 @@
 // adstar export: what `adstar record` wrote, as CSV or as a CCSDS Attitude Ephemeris Message.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <ctime>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "service/adstar/output.hpp"
 #include "service/adstar/recorded_runs.hpp"
 #include "service/adstar/recording_input.hpp"
+#include "service/adstar/services.hpp"
 #include "service/adstar/topic_rows.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
@@ -194,6 +196,22 @@ void export_aem(const bag::Recording& recording, const Options& options, Output&
   say_left_out(left_out, kVerb);
 }
 
+/// A value of an AEM is a part of one line: 254 characters of printable ASCII (CCSDS 504.0-B-2, 6.3), not empty (6.8.7).
+CLI::Validator aem_value(const char* example) {
+  return {[example](std::string& text) {
+            constexpr std::size_t kLongest = 200;  // and the keyword before it
+            const bool is_ascii =
+                std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+            const bool is_blank = text.find_first_not_of(' ') == std::string::npos;
+            return is_ascii && !is_blank && text.size() <= kLongest
+                       ? std::string()
+                       : fmt::format(
+                             "got '{}', expected 1 to {} characters of printable ASCII; try {}",
+                             printable(text), kLongest, example);
+          },
+          ""};
+}
+
 int export_recording(const Options& options) {
   const TopicTable* const table = options.topic == kMotion ? nullptr : &table_of(options.topic);
   if (options.format == "aem") {
@@ -260,24 +278,40 @@ Verb add_export(CLI::App& program) {
                    "csv: which rows; motion is attitude and momentum of a step in one")
       ->type_name(topics)
       ->capture_default_str();
-  verb->add_option("--epoch-utc", options->epoch_utc,
-                   "aem: the date of simulation time 0, as the scene's epoch_utc")
-      ->type_name("DATE");
-  verb->add_option("--frame", options->frame, "aem: what I is called (SANA's names of frames)")
-      ->type_name("FRAME")
-      ->capture_default_str();
-  verb->add_option("--object-id", options->object_id, "aem: international designator, as 2026-001A")
-      ->type_name("ID")
-      ->capture_default_str();
-  verb->add_option("--originator", options->originator, "aem: who made it (SANA's organizations)")
-      ->type_name("NAME")
-      ->capture_default_str();
+  CLI::Option* epoch =
+      verb->add_option("--epoch-utc", options->epoch_utc,
+                       "aem: the date of simulation time 0, as the scene's epoch_utc")
+          ->type_name("DATE");
+  CLI::Option* frame =
+      verb->add_option("--frame", options->frame, "aem: what I is called (SANA's names of frames)")
+          ->type_name("FRAME")
+          ->check(aem_value("GCRF"))
+          ->capture_default_str();
+  CLI::Option* object_id = verb->add_option("--object-id", options->object_id,
+                                            "aem: international designator, as 2026-001A")
+                               ->type_name("ID")
+                               ->check(aem_value("2026-001A"))
+                               ->capture_default_str();
+  CLI::Option* originator = verb->add_option("--originator", options->originator,
+                                             "aem: who made it (SANA's organizations)")
+                                ->type_name("NAME")
+                                ->check(aem_value("ADSTAR"))
+                                ->capture_default_str();
   verb->footer(
       "Example:\n"
       "  adstar export runs/monday --to csv --output monday.csv\n"
       "  adstar export runs/monday --to csv --topic wheel_state --spacecraft sat1\n"
       "  adstar export runs/monday --to aem --epoch-utc 2026-01-01T00:00:00Z --output monday.aem");
-  return {verb, [options] { return export_recording(*options); }};
+  return {verb, [options, of_aem = std::array{epoch, frame, object_id, originator}] {
+            for (const CLI::Option* option : of_aem) {
+              if (options->format == "csv" && option->count() > 0) {
+                throw Failure(kUsage, fmt::format("{}: CSV has no place for it; leave it out, or "
+                                                  "give --to aem",
+                                                  option->get_name()));
+              }
+            }
+            return export_recording(*options);
+          }};
 }
 
 }  // namespace adstar::cli

@@ -90,7 +90,7 @@ AemWriter::AemWriter(AemHeader header, std::int64_t first_ns, std::int64_t last_
       "\n"
       "DATA_START\n",
       header_.creation_utc, aem_name(header_.originator), aem_name(header_.object_name),
-      aem_name(header_.object_id), header_.inertial_frame, header_.body_frame,
+      aem_name(header_.object_id), aem_name(header_.inertial_frame), header_.body_frame,
       when(header_, first_ns_), when(header_, last_ns_), header_.body_frame);
 }
 

@@ -104,6 +104,35 @@ TEST(ExportAem, is_of_the_last_run_where_a_daemon_began_anew) {
   EXPECT_NE(aem.err.find("500 samples before it are not"), std::string::npos) << aem.err;
 }
 
+TEST(ExportAem, refuses_values_that_would_break_its_lines) {
+  MadeRecording recording;
+  recording.fly(1, 2);
+  recording.finish();
+  for (const char* option : {"--frame", "--object-id", "--originator"}) {
+    for (const std::string& value : {std::string("x\nDATA_STOP"), std::string(), std::string("  "),
+                                     std::string("\xc3\xa4"), std::string(201, 'x')}) {
+      const Outcome refused = export_aem(recording, {option, value});
+      EXPECT_EQ(refused.code, 2) << option << " '" << value << "'";
+      EXPECT_EQ(refused.out, "");
+      EXPECT_NE(refused.err.find(option), std::string::npos) << refused.err;
+    }
+  }
+  const Outcome aem = export_aem(recording, {"--frame", "Eme2000", "--object-id", "2026-001A"});
+  ASSERT_EQ(aem.code, 0) << aem.err;
+  EXPECT_EQ(parse_aem(aem.out).of("REF_FRAME_A"), "EME2000");
+}
+
+TEST(Export, to_csv_refuses_what_only_an_aem_has) {
+  MadeRecording recording;
+  recording.fly(1, 2);
+  recording.finish();
+  for (const char* option : {"--epoch-utc", "--frame", "--object-id", "--originator"}) {
+    const Outcome csv = client({"export", recording.directory(), "--to", "csv", option, "x"});
+    EXPECT_EQ(csv.code, 2) << option;
+    EXPECT_NE(csv.err.find(std::string(option) + ": "), std::string::npos) << csv.err;
+  }
+}
+
 /// The drawing, without the name of the recording above it.
 std::string below_title(const std::string& svg) { return svg.substr(svg.find("</text>")); }
 

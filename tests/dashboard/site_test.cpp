@@ -131,5 +131,26 @@ TEST(Site, reads_no_second_request_on_a_connection) {
   EXPECT_EQ(heard.find("HTTP/1.1", first + 1), std::string::npos) << heard;
 }
 
+TEST(Site, tells_a_command_that_is_too_long_so_in_the_form_that_the_page_reads) {
+  const Served served(true);
+  const Client client(served.port);
+  client.say("POST /command HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(served.port) +
+             "\r\nContent-Type: application/json\r\nContent-Length: 5000\r\n\r\n" +
+             std::string(5000, ' '));
+  const std::string heard = client.hear();
+  for (const char* part : {"HTTP/1.1 413 ", "Content-Type: application/json",
+                           R"("verdict":"not_sent")", "4096 bytes"}) {
+    EXPECT_NE(heard.find(part), std::string::npos) << part << " in " << heard;
+  }
+  EXPECT_EQ(heard.find("nothing at"), std::string::npos) << heard;
+}
+
+TEST(Site, says_where_there_is_nothing_and_what_there_is) {
+  const Served served;
+  const std::string heard = answer_to(served.port, "/nowhere");
+  EXPECT_NE(heard.find("HTTP/1.1 404 "), std::string::npos) << heard;
+  EXPECT_NE(heard.find("404: nothing at /nowhere; see /, /events"), std::string::npos) << heard;
+}
+
 }  // namespace
 }  // namespace adstar::dashboard

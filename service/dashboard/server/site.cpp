@@ -55,6 +55,19 @@ void refuse(httplib::Response& response, int status, const std::string& why) {
   response.set_content(why + "\n", kText);
 }
 
+/// Where no handler has said it.
+std::string why_not_served(int status, const std::string& path) {
+  switch (status) {
+    case 404:
+      return fmt::format("404: nothing at {}; see /, /events, /fleet, /metrics",
+                         path.substr(0, 200));
+    case 413:
+      return fmt::format("413: too long; a request has {} bytes of body at most", kLongestBody);
+    default:
+      return fmt::format("{}: not a request that is served here; see /", status);
+  }
+}
+
 std::string answer_json(const char* verdict, const std::string& sentence) {
   return nlohmann::json{{"verdict", verdict}, {"sentence", sentence}}.dump(
       -1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -85,10 +98,14 @@ Site::Site(const Bus& bus, PulseDesk& desk, Options options)
     return httplib::Server::HandlerResponse::Handled;
   });
   server_->set_error_handler([](const auto& request, auto& response) {
-    if (response.body.empty()) {
-      response.set_content(fmt::format("{}: nothing at {}; see /, /events, /fleet, /metrics\n",
-                                       response.status, request.path.substr(0, 200)),
-                           kText);
+    if (!response.body.empty()) {
+      return;
+    }
+    const std::string why = why_not_served(response.status, request.path);
+    if (request.method == "POST" && request.path == "/command") {
+      response.set_content(answer_json("not_sent", why), kJson);
+    } else {
+      refuse(response, response.status, why);
     }
   });
   add_page();
