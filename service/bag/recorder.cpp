@@ -24,7 +24,7 @@ void Recorder::work() {
   try {
     Batch batch;
     auto committed = Clock::now();
-    while (intake_.swap_in(batch, 100ms)) {
+    while (intake_.take(batch, 100ms)) {
       for (const Batch::Entry& entry : batch.entries) {
         writer_.add(entry.topic, entry.received_ns, batch.payload(entry));
       }

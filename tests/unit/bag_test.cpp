@@ -309,27 +309,55 @@ TEST_F(Bags, the_directories_above_a_recording_are_made_with_it) {
 }
 
 TEST(Intake, counts_what_does_not_fit_and_gives_out_the_rest) {
-  Intake intake(2, 25);
-  const std::vector<std::byte> ten(10);
-  EXPECT_TRUE(intake.offer(0, 1, ten));
-  EXPECT_TRUE(intake.offer(1, 2, ten));
-  EXPECT_FALSE(intake.offer(1, 3, ten));
+  Intake intake(2, Intake::kBatch_bytes);
+  const std::vector<std::byte> half(Intake::kBatchPayload_bytes / 2);
+  EXPECT_TRUE(intake.offer(0, 1, half));
+  EXPECT_TRUE(intake.offer(1, 2, half));
+  EXPECT_FALSE(intake.offer(1, 3, half));
   EXPECT_EQ(intake.lost(), (std::vector<std::uint64_t>{0, 1}));
   Batch batch;
-  ASSERT_TRUE(intake.swap_in(batch, 0ms));
+  ASSERT_TRUE(intake.take(batch, 0ms));
   ASSERT_EQ(batch.entries.size(), 2U);
   EXPECT_EQ(batch.entries[1].received_ns, 2);
-  EXPECT_EQ(batch.payload(batch.entries[1]).size(), 10U);
-  EXPECT_TRUE(intake.offer(1, 4, ten)) << "there is room again";
+  EXPECT_EQ(batch.payload(batch.entries[1]).size(), half.size());
+  ASSERT_TRUE(intake.take(batch, 0ms));
+  EXPECT_TRUE(batch.entries.empty());
+  EXPECT_TRUE(intake.offer(1, 4, half)) << "there is room again";
   intake.close();
-  EXPECT_FALSE(intake.offer(1, 5, ten));
-  EXPECT_TRUE(intake.swap_in(batch, 0ms)) << "what waited is still given out";
-  EXPECT_FALSE(intake.swap_in(batch, 0ms));
+  EXPECT_FALSE(intake.offer(1, 5, half));
+  EXPECT_TRUE(intake.take(batch, 0ms)) << "what waited is still given out";
+  EXPECT_EQ(batch.entries.size(), 1U);
+  EXPECT_FALSE(intake.take(batch, 0ms));
+}
+
+TEST(Intake, holds_no_more_memory_than_it_may_with_what_is_being_written) {
+  constexpr std::size_t kMost = 8 * Intake::kBatch_bytes;
+  for (const std::size_t size :
+       {std::size_t{1}, std::size_t{300}, std::size_t{100'000}, Intake::kBatchPayload_bytes * 2}) {
+    Intake intake(1, kMost);
+    const std::vector<std::byte> payload(size);
+    std::uint64_t taken = 0;
+    while (intake.offer(0, 1, payload)) {
+      ++taken;
+    }
+    Batch batch;
+    ASSERT_TRUE(intake.take(batch, 0ms));
+    EXPECT_FALSE(intake.offer(0, 1, payload)) << "the writer still has it";
+    std::size_t memory_bytes = 0;
+    for (; !batch.entries.empty(); intake.take(batch, 0ms)) {
+      memory_bytes += batch.memory_bytes();
+      taken -= batch.entries.size();
+    }
+    EXPECT_LE(memory_bytes, kMost);
+    EXPECT_GT(memory_bytes, kMost / 2);
+    EXPECT_EQ(taken, 0U);
+    EXPECT_TRUE(intake.offer(0, 1, payload));
+  }
 }
 
 TEST_F(Bags, every_sample_offered_is_recorded_or_counted_as_lost) {
   constexpr std::uint64_t kOffered = 20'000;
-  Recorder recorder(writer(), kTopics.size(), 4'000);
+  Recorder recorder(writer(), kTopics.size(), 2 * Intake::kBatch_bytes);
   const auto payload = bytes(40, 0);
   for (std::uint64_t i = 0; i < kOffered; ++i) {
     recorder.offer(1, static_cast<std::int64_t>(i), payload);
