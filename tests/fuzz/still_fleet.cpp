@@ -1,5 +1,4 @@
-// A fleet whose step does nothing: the gate needs vehicles to hand torques to, and the steppers of
-// every scheme would take minutes to compile here.
+// A fleet whose step does nothing: the gate needs vehicles to hand torques to, for every input anew, and no steppers.
 
 #include "service/runtime/fleet.hpp"
 
