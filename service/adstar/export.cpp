@@ -11,17 +11,17 @@
 #include <fmt/format.h>
 
 #include "service/adstar/failure.hpp"
-#include "service/adstar/joiner.hpp"
 #include "service/adstar/output.hpp"
 #include "service/adstar/recorded_runs.hpp"
 #include "service/adstar/recording_input.hpp"
 #include "service/adstar/services.hpp"
-#include "service/adstar/topic_rows.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
 #include "service/bag/sqlite.hpp"
 #include "service/dds/convert.hpp"
 #include "service/report/aem.hpp"
+#include "service/samples/recorded_topics.hpp"
+#include "service/samples/topic_rows.hpp"
 #include "service/scene/nearest.hpp"
 #include "service/scene/time_scales.hpp"
 
@@ -64,44 +64,9 @@ class Wanted {
   std::set<std::string, std::less<>> names_, seen_;
 };
 
-/// Attitude and momentum of a step in one row, as `adstar propagate` and `monitor` print them.
-void export_motion(const bag::Recording& recording, Wanted& wanted, Output& output) {
-  constexpr std::uint64_t kRound = 1024;
-  Joiner joiner(Joiner::Patience::both_topics);
-  const auto print = [&](const std::vector<Row>& rows) {
-    for (const Row& row : rows) {
-      append_csv(output.buffer(), row);
-      output.flush_if_full();
-    }
-  };
-  append_csv_header(output.buffer());
-  std::uint64_t unreadable = 0, messages = 0;
-  const auto add = [&](const auto& sample) {
-    if (wanted(dds::text_of(sample.spacecraft))) {
-      joiner.add(sample);
-    }
-  };
-  const std::string attitude = recorded_name<adstar_AttitudeState>();
-  recording.for_each(
-      {attitude, recorded_name<adstar_MomentumState>()}, [&](const bag::Message& message) {
-        const bool read = message.topic == attitude
-                              ? dds::with_sample<adstar_AttitudeState>(message.payload, add)
-                              : dds::with_sample<adstar_MomentumState>(message.payload, add);
-        unreadable += read ? 0 : 1;
-        if (++messages % kRound == 0) {
-          print(joiner.end_round());
-        }
-      });
-  print(joiner.rest());
-  say_unreadable(unreadable, kVerb);
-  if (messages == 0) {
-    require_motion(recording);
-  }
-}
-
-const TopicTable& table_of(const std::string& topic) {
-  std::vector<std::string_view> known{kMotion};
-  for (const TopicTable& table : topic_tables()) {
+const samples::Table& table_of(const std::string& topic) {
+  std::vector<std::string_view> known;
+  for (const samples::Table& table : samples::tables()) {
     if (table.name == topic) {
       return table;
     }
@@ -112,16 +77,19 @@ const TopicTable& table_of(const std::string& topic) {
                                     scene::nearest_plausible(topic, known).value_or(kMotion)));
 }
 
-void export_topic(const bag::Recording& recording, const TopicTable& table, Wanted& wanted,
+void export_table(const bag::Recording& recording, const samples::Table& table, Wanted& wanted,
                   Output& output) {
-  output.buffer() += table.columns;
-  std::uint64_t unreadable = 0;
-  recording.for_each({fmt::format("/adstar/{}", table.name)}, [&](const bag::Message& message) {
-    const bool read = table.append(output.buffer(), message.payload, std::ref(wanted));
-    unreadable += read ? 0 : 1;
+  output.buffer() += table.columns + "\n";
+  bool any = false;
+  const auto append = [&](const report::Fields& row) {
+    any = true;
+    report::append_csv(output.buffer(), row);
     output.flush_if_full();
-  });
-  say_unreadable(unreadable, kVerb);
+  };
+  say_unreadable(samples::for_each_row(recording, table.name, std::ref(wanted), append), kVerb);
+  if (!any && table.name == kMotion) {
+    require_motion(recording);
+  }
 }
 
 /// The one asked for, or the only one there is.
@@ -186,7 +154,7 @@ void export_aem(const bag::Recording& recording, const Options& options, Output&
         output.flush_if_full();
       }
     };
-    say_unreadable(for_each_sample<adstar_AttitudeState>(recording, add), kVerb);
+    say_unreadable(samples::for_each_sample<adstar_AttitudeState>(recording, add), kVerb);
     aem.end();
   } catch (const std::invalid_argument& error) {
     throw Failure(kFailed, error.what());
@@ -213,10 +181,10 @@ CLI::Validator aem_value(const char* example) {
 }
 
 int export_recording(const Options& options) {
-  const TopicTable* const table = options.topic == kMotion ? nullptr : &table_of(options.topic);
+  const samples::Table& table = table_of(options.topic);
   if (options.format == "aem") {
     epoch_of(options);  // before the work
-    if (table != nullptr) {
+    if (options.topic != kMotion) {
       throw Failure(kUsage, "--topic: an AEM is made from attitude_state alone; leave it out");
     }
   }
@@ -231,10 +199,8 @@ int export_recording(const Options& options) {
   try {
     if (options.format == "aem") {
       export_aem(recording, options, output);
-    } else if (table != nullptr) {
-      export_topic(recording, *table, wanted, output);
     } else {
-      export_motion(recording, wanted, output);
+      export_table(recording, table, wanted, output);
     }
   } catch (const bag::Error& error) {
     throw Failure(kFailed, error.what());
@@ -270,9 +236,9 @@ Verb add_export(CLI::App& program) {
       ->type_name("NAME")
       ->take_all()
       ->allow_extra_args(false);
-  std::string topics(kMotion);
-  for (const TopicTable& table : topic_tables()) {
-    topics += fmt::format("|{}", table.name);
+  std::string topics;
+  for (const samples::Table& table : samples::tables()) {
+    topics += (topics.empty() ? "" : "|") + table.name;
   }
   verb->add_option("--topic", options->topic,
                    "csv: which rows; motion is attitude and momentum of a step in one")

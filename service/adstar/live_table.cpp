@@ -54,7 +54,7 @@ std::string cut(std::string line, std::size_t width) {
   return line + '\n';
 }
 
-std::string state_of(const Row& row, double age_s) {
+std::string state_of(const report::Row& row, double age_s) {
   if ((row.flags & adstar_FLAG_FINAL) != 0) {
     return "  ended";
   }
@@ -68,7 +68,7 @@ std::string state_of(const Row& row, double age_s) {
 
 }  // namespace
 
-void LiveTable::update(const Row& row, Clock::time_point now) {
+void LiveTable::update(const report::Row& row, Clock::time_point now) {
   const std::string name = printable(row.spacecraft);
   Entry& entry = entries_[name];
   const auto before = entry.row.values;
@@ -108,7 +108,7 @@ std::string LiveTable::text(TerminalSize size, Clock::time_point now) const {
   }
   text += cut(line, size.columns);
   for (auto entry = entries_.begin(); entry != last; ++entry) {
-    const Row& row = entry->second.row;
+    const report::Row& row = entry->second.row;
     line = fmt::format("{:<{}}{:>{}}", entry->first, name_width,
                        fmt::format("{:.3f}", static_cast<double>(row.time_ns) * 1e-9), kTime);
     for (std::size_t i = 0; i < columns; ++i) {

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "service/adstar/row.hpp"
+#include "service/report/row.hpp"
 
 namespace adstar::cli {
 
@@ -24,7 +24,7 @@ class LiveTable {
   explicit LiveTable(std::string title) : title_(std::move(title)) {}
 
   /// What a row does not know stays as it was.
-  void update(const Row& row, Clock::time_point now);
+  void update(const report::Row& row, Clock::time_point now);
   void set_note(std::string note) { note_ = std::move(note); }
 
   /// No line is wider or the whole higher than the terminal.
@@ -32,7 +32,7 @@ class LiveTable {
 
  private:
   struct Entry {
-    Row row;
+    report::Row row;
     Clock::time_point heard;
   };
 

@@ -11,6 +11,7 @@
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
 #include "service/dds/error.hpp"
+#include "service/propagation/plan.hpp"
 #include "service/scene/scene.hpp"
 
 namespace {
@@ -30,6 +31,9 @@ int run(const cli::Verb& verb) {
     return failure.code;
   } catch (const scene::SceneError& error) {
     fmt::print(stderr, "{}\n", error.what());
+    return cli::kUsage;
+  } catch (const propagation::Refused& error) {
+    complain(error.what());
     return cli::kUsage;
   } catch (const dds::ConfigurationError& error) {
     complain(error.what());

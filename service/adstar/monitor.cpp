@@ -106,17 +106,17 @@ class Watch {
 
 void print_lines(TelemetryFeed& feed, Watch& watch, bool json) {
   Output output = Output::to_stdout();
-  const auto print = [&](std::vector<Row> rows) {
+  const auto print = [&](std::vector<report::Row> rows) {
     rows.resize(std::min<std::uint64_t>(rows.size(), watch.still_wanted()));
-    for (const Row& row : rows) {
-      json ? append_json(output.buffer(), row) : append_csv(output.buffer(), row);
+    for (const report::Row& row : rows) {
+      json ? report::append_json(output.buffer(), row) : report::append_csv(output.buffer(), row);
       output.flush_if_full();
     }
     watch.count(rows.size());
     output.flush();
   };
   if (!json) {
-    append_csv_header(output.buffer());
+    report::append_csv_header(output.buffer());
     output.flush();
   }
   while (!watch.over()) {
@@ -135,9 +135,9 @@ void draw_table(TelemetryFeed& feed, Watch& watch, const dds::ParticipantOptions
   Screen screen;
   auto next_frame = Clock::now();
   while (!watch.over()) {
-    const std::vector<Row> rows = feed.next(50ms);
+    const std::vector<report::Row> rows = feed.next(50ms);
     const auto now = Clock::now();
-    for (const Row& row : rows) {
+    for (const report::Row& row : rows) {
       table.update(row, now);
     }
     watch.count(rows.size());

@@ -21,6 +21,7 @@
 #include "service/adstar/verbs.hpp"
 #include "service/bag/sqlite.hpp"
 #include "service/dds/convert.hpp"
+#include "service/samples/recorded_topics.hpp"
 #include "service/scene/nearest.hpp"
 
 namespace adstar::cli {
@@ -126,7 +127,7 @@ Histories chosen_histories(const bag::Recording& recording, const Options& optio
 
 Histories read_histories(const bag::Recording& recording, const Options& options) {
   Histories histories = chosen_histories(recording, options);
-  std::uint64_t unreadable = for_each_sample<adstar_MomentumState>(
+  std::uint64_t unreadable = samples::for_each_sample<adstar_MomentumState>(
       recording, [&](const adstar_MomentumState& s, std::int64_t /*received_ns*/) {
         const auto known = histories.find(dds::text_of(s.spacecraft));
         if (known != histories.end() && known->second.momentum_run.takes(s.time_ns)) {
@@ -136,7 +137,7 @@ Histories read_histories(const bag::Recording& recording, const Options& options
           h.energy_residual.add({seconds(s.time_ns), s.energy_residual_j});
         }
       });
-  unreadable += for_each_sample<adstar_AttitudeState>(
+  unreadable += samples::for_each_sample<adstar_AttitudeState>(
       recording, [&](const adstar_AttitudeState& s, std::int64_t /*received_ns*/) {
         const auto known = histories.find(dds::text_of(s.spacecraft));
         if (known != histories.end() && known->second.attitude_run.takes(s.time_ns)) {

@@ -2,22 +2,24 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "service/adstar/failure.hpp"
 #include "service/adstar/output.hpp"
 #include "service/adstar/progress_bar.hpp"
-#include "service/adstar/propagate_plan.hpp"
-#include "service/adstar/row.hpp"
-#include "service/adstar/side_rows.hpp"
 #include "service/adstar/stop_signal.hpp"
-#include "service/adstar/unresolved.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
+#include "service/propagation/fly.hpp"
+#include "service/propagation/plan.hpp"
+#include "service/propagation/side_rows.hpp"
 #include "service/report/numbers.hpp"
+#include "service/report/row.hpp"
 #include "service/runtime/fleet.hpp"
 #include "service/scene/scene.hpp"
 
@@ -26,34 +28,38 @@ namespace {
 
 struct Options {
   std::string scene;
-  std::string output, wheels, pointing, bodies, joints;
+  std::string output;
+  std::map<std::string, std::string> beside;  ///< file by the name of its table
   std::size_t threads = 1;
-  PropagateRequest request;
+  propagation::Request request;
 };
 
-void set(Row& row, const runtime::Vehicle& vehicle) {
+const propagation::Words kWords{"--duration", "--step", "--every",
+                                "--scheme",   " ",      scene::format_duration};
+
+void set(report::Row& row, const runtime::Vehicle& vehicle) {
   const runtime::TelemetryRecord s = runtime::sample(vehicle);
   const auto put = [&](std::size_t first, const auto& values) {
     std::copy(values.begin(), values.end(),
               row.values.begin() + static_cast<std::ptrdiff_t>(first));
   };
-  put(kAttitude, s.q_IB);
-  put(kAngularVelocity, s.omega_B_rad_s);
-  put(kMomentumInertial, s.H_I_n_m_s);
-  put(kMomentumBody, s.Pi_B_n_m_s);
-  row.values[kEnergy] = s.rotational_energy_j;
-  row.values[kWork] = s.work_j;
+  put(report::kAttitude, s.q_IB);
+  put(report::kAngularVelocity, s.omega_B_rad_s);
+  put(report::kMomentumInertial, s.H_I_n_m_s);
+  put(report::kMomentumBody, s.Pi_B_n_m_s);
+  row.values[report::kEnergy] = s.rotational_energy_j;
+  row.values[report::kWork] = s.work_j;
 }
 
 void write_rows(Output& output, const scene::Scene& scene, const runtime::Fleet& fleet,
                 std::uint64_t step, std::int64_t time_ns) {
-  Row row;
+  report::Row row;
   row.step = step;
   row.time_ns = time_ns;
   for (std::size_t i = 0; i < scene.spacecraft.size(); ++i) {
     row.spacecraft = scene.spacecraft[i].name;
     set(row, fleet.vehicles()[i]);
-    append_csv(output.buffer(), row);
+    report::append_csv(output.buffer(), row);
     output.flush_if_full();
   }
 }
@@ -62,55 +68,41 @@ void write_rows(Output& output, const scene::Scene& scene, const runtime::Fleet&
 class SideOutputs {
  public:
   SideOutputs(const Options& options, const scene::Scene& scene) {
-    open(wheels_, "--wheels", options.wheels, kWheelColumns,
-         scene::first_with_wheels(scene.spacecraft) != nullptr, "the scene has no wheels");
-    open(pointing_, "--pointing", options.pointing, kPointingColumns,
-         scene::first_with_reference(scene.spacecraft) != nullptr,
-         "no spacecraft of the scene has an orbit or a target");
-    const bool linked = scene::first_linked(scene.spacecraft) != nullptr;
-    const char* const none = "no spacecraft of the scene has linked bodies";
-    open(bodies_, "--bodies", options.bodies, kBodyColumns, linked, none);
-    open(joints_, "--joints", options.joints, kJointColumns, linked, none);
+    for (const propagation::SideTable& table : propagation::side_tables()) {
+      const std::string& file = options.beside.at(table.name);
+      if (file.empty()) {
+        continue;
+      }
+      if (table.first(scene.spacecraft) == nullptr) {
+        throw Failure(kUsage, fmt::format("--{}: {}; leave it out", table.name, table.none));
+      }
+      outputs_.push_back({table, Output::to_file(file)});
+      outputs_.back().output.buffer() = fmt::format("{}\n", table.columns);
+    }
   }
 
   void write(const scene::Scene& scene, runtime::Fleet& fleet, std::uint64_t step,
              std::int64_t time_ns) {
-    if (wheels_) {
-      write_wheels(*wheels_, scene, fleet, step, time_ns);
-    }
-    if (pointing_) {
-      write_pointing(*pointing_, scene, fleet, step, time_ns);
-    }
-    if (bodies_) {
-      write_bodies(*bodies_, scene, fleet, step, time_ns);
-    }
-    if (joints_) {
-      write_joints(*joints_, scene, fleet, step, time_ns);
+    for (auto& [table, output] : outputs_) {
+      table.rows(scene, fleet, step, time_ns, [&out = output](const report::Fields& row) {
+        report::append_csv(out.buffer(), row);
+        out.flush_if_full();
+      });
     }
   }
 
   void commit() {
-    for (std::optional<Output>* const output : {&wheels_, &pointing_, &bodies_, &joints_}) {
-      if (*output) {
-        (*output)->commit();
-      }
+    for (auto& [table, output] : outputs_) {
+      output.commit();
     }
   }
 
  private:
-  static void open(std::optional<Output>& output, const char* option, const std::string& file,
-                   const char* columns, bool there_are_some, const char* none) {
-    if (file.empty()) {
-      return;
-    }
-    if (!there_are_some) {
-      throw Failure(kUsage, fmt::format("{}: {}; leave it out", option, none));
-    }
-    output.emplace(Output::to_file(file));
-    output->buffer() = columns;
-  }
-
-  std::optional<Output> wheels_, pointing_, bodies_, joints_;
+  struct Side {
+    const propagation::SideTable& table;
+    Output output;
+  };
+  std::vector<Side> outputs_;
 };
 
 /// Nobody commands here: an actuator of the scene is still.
@@ -136,7 +128,7 @@ void say_that_actuators_rest(const scene::Scene& scene) {
 
 int propagate(const Options& options) {
   const scene::Scene scene = scene::load(options.scene);
-  const PropagatePlan plan = make_plan(scene, options.request);
+  const propagation::Plan plan = propagation::make_plan(scene, options.request, kWords);
   catch_stop_signals();
   Output output = options.output.empty() ? Output::to_stdout() : Output::to_file(options.output);
   runtime::Fleet fleet(scene.spacecraft, plan.scheme, scene.simulation.limits,
@@ -144,38 +136,25 @@ int propagate(const Options& options) {
   say_that_actuators_rest(scene);
 
   SideOutputs beside(options, scene);
-  const auto write = [&](std::uint64_t step, std::int64_t time_ns) {
-    write_rows(output, scene, fleet, step, time_ns);
-    beside.write(scene, fleet, step, time_ns);
-  };
-  append_csv_header(output.buffer());
-  write(0, 0);
-  Unresolved unresolved(scene.spacecraft.size());
-  {
-    ProgressBar progress(plan.steps);
-    // Asking the clock costs as much as some steps.
-    const std::uint64_t look_every = std::max<std::uint64_t>(1, 4096 / scene.spacecraft.size());
-    for (std::uint64_t n = 0; n < plan.steps; ++n) {
-      const auto t_ns = static_cast<std::int64_t>(n) * plan.step_ns;
-      if (fleet.step(t_ns, plan.step_ns) > 0) {
-        unresolved.note(fleet, t_ns + plan.step_ns);
-      }
-      const std::uint64_t done = n + 1;
-      if (done == plan.steps || (plan.every > 0 && done % plan.every == 0)) {
-        write(done, t_ns + plan.step_ns);
-      }
-      if (done % look_every == 0) {
-        progress.show(done);
-        if (stop_requested()) {
-          throw Failure(kFailed, fmt::format("interrupted at {} s; no output file was written",
-                                             report::seconds_text(t_ns + plan.step_ns)));
-        }
-      }
-    }
-  }
+  report::append_csv_header(output.buffer());
+  std::optional<ProgressBar> progress(std::in_place, plan.steps);
+  const propagation::Unresolved unresolved = propagation::fly(
+      fleet, plan,
+      {[&](std::uint64_t step, std::int64_t time_ns) {
+         write_rows(output, scene, fleet, step, time_ns);
+         beside.write(scene, fleet, step, time_ns);
+       },
+       [&](std::uint64_t done, std::int64_t time_ns) {
+         progress->show(done);
+         if (stop_requested()) {
+           throw Failure(kFailed, fmt::format("interrupted at {} s; no output file was written",
+                                              report::seconds_text(time_ns)));
+         }
+       }});
+  progress.reset();
   output.commit();
   beside.commit();
-  if (const std::string warning = unresolved.warning(scene, plan.step_ns); !warning.empty()) {
+  if (const std::string warning = unresolved.warning(scene, plan, kWords); !warning.empty()) {
     fmt::print(stderr, "adstar propagate: {}\n", warning);
   }
   return kDone;
@@ -203,15 +182,16 @@ Verb add_propagate(CLI::App& program) {
   verb->add_option("--output", options->output,
                    "Write there, whole or not at all (default: stdout)")
       ->type_name("FILE");
-  verb->add_option("--wheels", options->wheels, "Write the wheels' rows there, whole or not at all")
+  verb->add_option("--wheels", options->beside["wheels"],
+                   "Write the wheels' rows there, whole or not at all")
       ->type_name("FILE");
-  verb->add_option("--pointing", options->pointing,
+  verb->add_option("--pointing", options->beside["pointing"],
                    "Write there how they point against orbit and target, whole or not at all")
       ->type_name("FILE");
-  verb->add_option("--bodies", options->bodies,
+  verb->add_option("--bodies", options->beside["bodies"],
                    "Write the rows of linked bodies there, whole or not at all")
       ->type_name("FILE");
-  verb->add_option("--joints", options->joints,
+  verb->add_option("--joints", options->beside["joints"],
                    "Write the rows of their joints there, loads too, whole or not at all")
       ->type_name("FILE");
   verb->footer(

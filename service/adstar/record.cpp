@@ -13,7 +13,6 @@
 
 #include "service/adstar/dds_options.hpp"
 #include "service/adstar/failure.hpp"
-#include "service/adstar/recorded_topics.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
@@ -22,6 +21,7 @@
 #include "service/dds/raw_reader.hpp"
 #include "service/dds/wait_set.hpp"
 #include "service/report/numbers.hpp"
+#include "service/samples/recorded_topics.hpp"
 #include "service/scene/nearest.hpp"
 #include "service/scene/scene.hpp"
 
@@ -52,16 +52,16 @@ std::string directory_of(const Options& options) {
 }
 
 /// All, or those named: "attitude_state" and "adstar/attitude_state" are the same. Throws Failure.
-std::vector<RecordedTopic> chosen_topics(const std::vector<std::string>& named) {
+std::vector<samples::RecordedTopic> chosen_topics(const std::vector<std::string>& named) {
   constexpr std::string_view kPrefix = "adstar/";
-  std::vector<RecordedTopic> all = recorded_topics();
+  std::vector<samples::RecordedTopic> all = samples::recorded_topics();
   std::set<std::string> wanted;
   for (const std::string& name : named) {
     wanted.insert(name.starts_with(kPrefix) ? name : std::string(kPrefix) + name);
   }
   std::vector<std::string_view> known;
   known.reserve(all.size());
-  for (const RecordedTopic& topic : all) {
+  for (const samples::RecordedTopic& topic : all) {
     known.push_back(std::string_view(topic.name).substr(kPrefix.size()));
   }
   for (const std::string& name : wanted) {
@@ -74,17 +74,18 @@ std::vector<RecordedTopic> chosen_topics(const std::vector<std::string>& named) 
     }
   }
   if (!wanted.empty()) {
-    std::erase_if(all, [&](const RecordedTopic& topic) { return !wanted.contains(topic.name); });
+    std::erase_if(
+        all, [&](const samples::RecordedTopic& topic) { return !wanted.contains(topic.name); });
   }
   return all;
 }
 
 /// The readers of all topics that this participant may read; `topics` becomes those.
 std::list<dds::RawReader> make_readers(const dds::Participant& participant,
-                                       std::vector<RecordedTopic>& topics) {
+                                       std::vector<samples::RecordedTopic>& topics) {
   std::list<dds::RawReader> readers;
   std::string refused;
-  std::erase_if(topics, [&](const RecordedTopic& topic) {
+  std::erase_if(topics, [&](const samples::RecordedTopic& topic) {
     try {
       readers.emplace_back(participant, *topic.descriptor, topic.name.c_str(), topic.reader);
       return false;
@@ -158,10 +159,10 @@ class Session {
   }
 
  private:
-  static std::vector<bag::TopicInfo> infos(const std::vector<RecordedTopic>& topics) {
+  static std::vector<bag::TopicInfo> infos(const std::vector<samples::RecordedTopic>& topics) {
     std::vector<bag::TopicInfo> list;
     list.reserve(topics.size());
-    for (const RecordedTopic& topic : topics) {
+    for (const samples::RecordedTopic& topic : topics) {
       list.push_back(topic.info);
     }
     return list;
@@ -210,7 +211,7 @@ class Session {
 
   const Options& options_;
   std::string directory_;
-  std::vector<RecordedTopic> topics_;
+  std::vector<samples::RecordedTopic> topics_;
   dds::Participant participant_;
   std::list<dds::RawReader> readers_;
   dds::WaitSet wait_set_;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "service/adstar/last_run.hpp"
-#include "service/adstar/recording_input.hpp"
 #include "service/dds/convert.hpp"
+#include "service/samples/recorded_topics.hpp"
 
 namespace adstar::cli {
 
@@ -17,7 +17,7 @@ using Runs = std::map<std::string, RunFinder, std::less<>>;
 template <class T>
 Runs runs_of(const bag::Recording& recording) {
   Runs runs;
-  for_each_sample<T>(recording, [&](const T& sample, std::int64_t /*received_ns*/) {
+  samples::for_each_sample<T>(recording, [&](const T& sample, std::int64_t /*received_ns*/) {
     runs[std::string(dds::text_of(sample.spacecraft))].add(sample.time_ns);
   });
   return runs;

@@ -6,6 +6,7 @@
 #include "service/adstar/failure.hpp"
 #include "service/bag/sqlite.hpp"
 #include "service/report/numbers.hpp"
+#include "service/samples/recorded_topics.hpp"
 
 namespace adstar::cli {
 
@@ -47,11 +48,11 @@ void require_motion(const bag::Recording& recording) {
     if (count.messages == 0) {
       continue;
     }
-    if (name == recorded_name<adstar_AttitudeState>() ||
-        name == recorded_name<adstar_MomentumState>()) {
+    if (name == samples::recorded_name<adstar_AttitudeState>() ||
+        name == samples::recorded_name<adstar_MomentumState>()) {
       return;
     }
-    has_fleet = has_fleet || name == recorded_name<adstar_FleetState>();
+    has_fleet = has_fleet || name == samples::recorded_name<adstar_FleetState>();
   }
   throw Failure(kUsage,
                 has_fleet ? "there is no attitude_state or momentum_state in the recording, only "

@@ -27,7 +27,7 @@ TelemetryFeed::TelemetryFeed(const dds::Participant& participant, std::set<std::
   wait_set_.attach(momenta_);
 }
 
-std::vector<Row> TelemetryFeed::next(std::chrono::nanoseconds patience) {
+std::vector<report::Row> TelemetryFeed::next(std::chrono::nanoseconds patience) {
   // Fleets come once a second and are not waited for: until their roster is known they stay where
   // they are, and a waiting sample would keep the wait set awake.
   wait_set_.wait(std::min<std::chrono::nanoseconds>(patience, 50ms));

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "service/adstar/joiner.hpp"
 #include "service/adstar/services.hpp"
 #include "service/dds/participant.hpp"
 #include "service/dds/reader.hpp"
 #include "service/dds/wait_set.hpp"
+#include "service/samples/joiner.hpp"
 
 namespace adstar::cli {
 
@@ -21,9 +21,9 @@ class TelemetryFeed {
   TelemetryFeed(const dds::Participant& participant, std::set<std::string> wanted);
 
   /// Waits at most `patience` for something to come; returns what is ready.
-  std::vector<Row> next(std::chrono::nanoseconds patience);
+  std::vector<report::Row> next(std::chrono::nanoseconds patience);
   /// At the end: halves that still wait for their other half.
-  std::vector<Row> rest() { return joiner_.rest(); }
+  std::vector<report::Row> rest() { return joiner_.rest(); }
 
   /// Some daemon is on the bus.
   bool heard() const;
@@ -37,7 +37,7 @@ class TelemetryFeed {
 
   std::set<std::string, std::less<>> wanted_;
   Clock::time_point begun_ = Clock::now();
-  Joiner joiner_;
+  samples::Joiner joiner_;
   Services services_;
   dds::Reader<adstar_AttitudeState> attitudes_;
   dds::Reader<adstar_MomentumState> momenta_;

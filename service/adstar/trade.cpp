@@ -12,10 +12,10 @@
 #include "service/adstar/failure.hpp"
 #include "service/adstar/output.hpp"
 #include "service/adstar/progress_bar.hpp"
-#include "service/adstar/propagate_plan.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
+#include "service/propagation/plan.hpp"
 #include "service/report/numbers.hpp"
 #include "service/trade/campaign.hpp"
 #include "service/trade/front.hpp"
@@ -92,7 +92,7 @@ std::vector<std::string> schemes_of(const scene::Scene& scene, const Options& op
     return usable;
   }
   for (const std::string& name : options.schemes) {
-    require_scheme(name, "--schemes", scene);
+    propagation::require_scheme(name, "--schemes", scene);
   }
   return options.schemes;
 }
@@ -154,7 +154,7 @@ int draw_map(const Options& options) {
     }
   }
   for (const std::string& name : schemes) {
-    require_scheme(name, "--schemes", scene::Scene{});
+    propagation::require_scheme(name, "--schemes", scene::Scene{});
   }
   const trade::StabilityMap map = with_progress([&](const trade::Progress& progress) {
     return trade::map_stability(schemes, trade::all_extremes(trade::Detail::full), progress);

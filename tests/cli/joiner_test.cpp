@@ -1,11 +1,13 @@
-#include "service/adstar/joiner.hpp"
+#include "service/samples/joiner.hpp"
 
 #include <gtest/gtest.h>
 
 #include "service/dds/convert.hpp"
 
-namespace adstar::cli {
+namespace adstar::samples {
 namespace {
+
+using report::kAttitude, report::kColumns, report::kMomentumBody, report::kWork, report::Row;
 
 adstar_AttitudeState attitude(std::uint64_t step, const char* name = "sat1") {
   adstar_AttitudeState sample{};
@@ -145,4 +147,4 @@ TEST(Joiner, fleet_samples_speak_only_for_spacecraft_without_topics_of_their_own
 }
 
 }  // namespace
-}  // namespace adstar::cli
+}  // namespace adstar::samples

@@ -7,11 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "service/adstar/live_table.hpp"
-#include "service/adstar/row.hpp"
 #include "service/report/numbers.hpp"
+#include "service/report/row.hpp"
 
 namespace adstar::cli {
 namespace {
+
+using report::append_csv, report::append_json, report::kAttitude, report::kWork, report::Row;
 
 std::string number(double value) {
   std::string text;

@@ -1,12 +1,15 @@
-#include "service/adstar/joiner.hpp"
+#include "service/samples/joiner.hpp"
 
 #include <algorithm>
 
 #include "adstar/attitude.hpp"
 #include "service/dds/convert.hpp"
 
-namespace adstar::cli {
+namespace adstar::samples {
 namespace {
+
+using report::kEnergy, report::kMomentumBody, report::kWork;
+using report::Row, report::kAttitude, report::kAngularVelocity, report::kMomentumInertial;
 
 /// Whoever can write to the domain could otherwise fill our memory with names.
 constexpr std::size_t kMostTracks = 1'100'000;
@@ -136,4 +139,4 @@ void Joiner::give_out(Track& track, std::vector<Row>& rows, bool everything) con
   }
 }
 
-}  // namespace adstar::cli
+}  // namespace adstar::samples

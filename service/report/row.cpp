@@ -1,12 +1,13 @@
-#include "service/adstar/row.hpp"
+#include "service/report/row.hpp"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "service/report/fields.hpp"
 #include "service/report/numbers.hpp"
 
-namespace adstar::cli {
+namespace adstar::report {
 namespace {
 
 /// A sample off the network may carry any bytes as its name.
@@ -27,33 +28,27 @@ void append_json_string(std::string& text, std::string_view value) {
   text += '"';
 }
 
-/// Nothing that would begin a new field or line.
-void append_csv_string(std::string& text, std::string_view value) {
-  for (const char c : value) {
-    const bool plain = c > ' ' && c != ',' && c != '"' && c != '\x7f';
-    text += plain ? c : '?';
-  }
-}
-
 }  // namespace
 
-void append_csv_header(std::string& text) {
-  text += "spacecraft,step,time_s";
+std::string motion_columns() {
+  std::string text = "spacecraft,step,time_s";
   for (const std::string_view column : kColumns) {
     text += ',';
     text += column;
   }
-  text += '\n';
+  return text;
 }
 
+void append_csv_header(std::string& text) { text += motion_columns() + "\n"; }
+
 void append_csv(std::string& text, const Row& row) {
-  append_csv_string(text, row.spacecraft);
+  append_csv_word(text, row.spacecraft);
   fmt::format_to(std::back_inserter(text), FMT_STRING(",{},"), row.step);
-  report::append_seconds(text, row.time_ns);
+  append_seconds(text, row.time_ns);
   for (const auto& value : row.values) {
     text += ',';
     if (value) {
-      report::append_number(text, *value);
+      append_number(text, *value);
     }
   }
   text += '\n';
@@ -63,11 +58,11 @@ void append_json(std::string& text, const Row& row) {
   text += "{\"spacecraft\":";
   append_json_string(text, row.spacecraft);
   fmt::format_to(std::back_inserter(text), FMT_STRING(",\"step\":{},\"time_s\":"), row.step);
-  report::append_seconds(text, row.time_ns);
+  append_seconds(text, row.time_ns);
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     fmt::format_to(std::back_inserter(text), FMT_STRING(",\"{}\":"), kColumns[i]);
     if (row.values[i] && std::isfinite(*row.values[i])) {
-      report::append_number(text, *row.values[i]);
+      append_number(text, *row.values[i]);
     } else {
       text += "null";
     }
@@ -75,4 +70,4 @@ void append_json(std::string& text, const Row& row) {
   text += "}\n";
 }
 
-}  // namespace adstar::cli
+}  // namespace adstar::report

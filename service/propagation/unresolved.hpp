@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "service/propagation/plan.hpp"
 #include "service/runtime/fleet.hpp"
 #include "service/scene/scene.hpp"
 
-namespace adstar::cli {
+namespace adstar::propagation {
 
 class Unresolved {
  public:
@@ -18,7 +19,7 @@ class Unresolved {
   void note(const runtime::Fleet& fleet, std::int64_t time_ns);
 
   /// One sentence a kind of fault; empty when there was none.
-  std::string warning(const scene::Scene& scene, std::int64_t step_ns) const;
+  std::string warning(const scene::Scene& scene, const Plan& plan, const Words& words) const;
 
  private:
   std::vector<std::uint32_t> flags_;
@@ -26,4 +27,4 @@ class Unresolved {
   bool any_ = false;
 };
 
-}  // namespace adstar::cli
+}  // namespace adstar::propagation

@@ -11,9 +11,9 @@
 #include <telemetry.h>
 #include <vector>
 
-#include "service/adstar/row.hpp"
+#include "service/report/row.hpp"
 
-namespace adstar::cli {
+namespace adstar::samples {
 
 class Joiner {
  public:
@@ -29,9 +29,9 @@ class Joiner {
            const adstar_FleetMember& member);
 
   /// After both topics were taken: the rows that are ready, by spacecraft, then by step.
-  std::vector<Row> end_round() { return ready(false); }
+  std::vector<report::Row> end_round() { return ready(false); }
   /// At the end of it all: what still waits, too.
-  std::vector<Row> rest() { return ready(true); }
+  std::vector<report::Row> rest() { return ready(true); }
 
   bool has_own_topics(std::string_view spacecraft) const;
 
@@ -39,7 +39,7 @@ class Joiner {
   enum Half : unsigned { kAttitudeHalf = 1, kMomentumHalf = 2, kBoth = 3 };
 
   struct Waiting {
-    Row row;
+    report::Row row;
     unsigned halves = 0;
   };
   struct Track {
@@ -50,16 +50,16 @@ class Joiner {
   };
 
   template <class Sample>
-  Row* place(const Sample& sample, Half half);
-  std::vector<Row> ready(bool everything);
-  void give_out(Track& track, std::vector<Row>& rows, bool everything) const;
+  report::Row* place(const Sample& sample, Half half);
+  std::vector<report::Row> ready(bool everything);
+  void give_out(Track& track, std::vector<report::Row>& rows, bool everything) const;
   bool is_overtaken(const Track& track) const;
 
   Patience patience_;
   std::map<std::string, Track, std::less<>> tracks_;
   std::map<std::string, std::uint64_t, std::less<>> fleet_steps_;
-  std::vector<Row> restarted_;  ///< of runs that ended before the present one
-  std::vector<Row> fleet_rows_;
+  std::vector<report::Row> restarted_;  ///< of runs that ended before the present one
+  std::vector<report::Row> fleet_rows_;
 };
 
-}  // namespace adstar::cli
+}  // namespace adstar::samples

@@ -1,11 +1,11 @@
-#include "service/adstar/unresolved.hpp"
+#include "service/propagation/unresolved.hpp"
 
 #include <fmt/format.h>
 
 #include "adstar/integrators/all.hpp"
 #include "service/report/numbers.hpp"
 
-namespace adstar::cli {
+namespace adstar::propagation {
 namespace {
 
 constexpr std::size_t kNamed = 3;
@@ -22,7 +22,8 @@ void Unresolved::note(const runtime::Fleet& fleet, std::int64_t time_ns) {
   }
 }
 
-std::string Unresolved::warning(const scene::Scene& scene, std::int64_t step_ns) const {
+std::string Unresolved::warning(const scene::Scene& scene, const Plan& plan,
+                                const Words& words) const {
   std::string text;
   const auto say = [&](std::uint32_t flag, const std::string& fault, const std::string& remedy) {
     std::string names;
@@ -52,19 +53,22 @@ std::string Unresolved::warning(const scene::Scene& scene, std::int64_t step_ns)
            : (flags & runtime::kFlagLightAxis) != 0 ? "follow while an axis is so light"
                                                     : "reach";
   };
-  const StepLimits limits = limits_for(scene.simulation.scheme, scene.simulation.limits);
-  const std::string step = scene::format_duration(step_ns);
+  const StepLimits limits = limits_for(plan.scheme, scene.simulation.limits);
+  const auto shorter = [&](const char* limit) {
+    return fmt::format("take a shorter {}, or raise simulation.{}", words.step, limit);
+  };
+  const std::string step = scene::format_duration(plan.step_ns);
   say(runtime::kFlagUnresolvedAngle,
       fmt::format("turned further in {} than {} sub-steps of {} rad {}", step, limits.substeps,
                   report::short_number(limits.substep_angle_rad), reach()),
-      "take a shorter --step, or raise simulation.substep_limit");
+      shorter("substep_limit"));
   say(runtime::kFlagUnresolvedDamping,
       fmt::format("are damped too stiffly for {} sub-steps in {}", limits.substeps, step),
-      "take a shorter --step, or raise simulation.substep_limit");
+      shorter("substep_limit"));
   say(runtime::kFlagUnresolvedEdges,
       fmt::format("met more than {} torque edges in one step of {}", limits.edges, step),
-      "take a shorter --step, or raise simulation.edge_limit");
+      shorter("edge_limit"));
   return text;
 }
 
-}  // namespace adstar::cli
+}  // namespace adstar::propagation

@@ -1,11 +1,11 @@
-#include "service/adstar/recorded_topics.hpp"
+#include "service/samples/recorded_topics.hpp"
 
 #include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
 
-namespace adstar::cli {
+namespace adstar::samples {
 namespace {
 
 /// What may wait in Cyclone for a recorder that is kept from the processor.
@@ -52,4 +52,4 @@ std::vector<RecordedTopic> recorded_topics() {
                     dds::kTopics);
 }
 
-}  // namespace adstar::cli
+}  // namespace adstar::samples

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace adstar::cli {
+namespace adstar::report {
 
 /// The columns after spacecraft, step and time_s.
 inline constexpr std::array<std::string_view, 15> kColumns{"q_w",
@@ -41,10 +41,13 @@ struct Row {
   std::uint32_t flags = 0;  ///< FLAG_... of idl/telemetry.idl; no column
 };
 
+/// All of them, between commas.
+std::string motion_columns();
+
 void append_csv_header(std::string& text);
 /// Unknown values are empty fields.
 void append_csv(std::string& text, const Row& row);
 /// One object on one line; unknown and non-finite values are null.
 void append_json(std::string& text, const Row& row);
 
-}  // namespace adstar::cli
+}  // namespace adstar::report
