@@ -14,12 +14,14 @@ packages=(
   libsqlite3-dev                           # recordings
   libxsimd-dev                             # fleets: several bodies a register
   libcpp-httplib-dev pkg-config            # adstar dashboard serves its page
+  pybind11-dev python3-dev python3-numpy   # the Python package
 )
 # The page itself: whatever npm is there will do, Debian's or another.
 command -v npm >/dev/null || packages+=(nodejs npm)
 if [[ "${1:-}" == "--tests" ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
-             iproute2 git procps bash-completion valgrind chromium)
+             iproute2 git procps bash-completion valgrind chromium
+             python3-pytest python3-matplotlib mypy)
 elif [[ -n "${1:-}" ]]; then
   echo "usage: install-deps.sh [--tests]" >&2
   exit 2
