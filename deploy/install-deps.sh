@@ -19,7 +19,7 @@ packages=(
 # The page itself: whatever npm is there will do, Debian's or another.
 command -v npm >/dev/null || packages+=(nodejs npm)
 if [[ "${1:-}" == "--tests" ]]; then
-  packages+=(clang libclang-rt-14-dev clang-format clang-tidy libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
+  packages+=(clang libclang-rt-14-dev clang-format clang-tidy doxygen libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
              iproute2 git procps bash-completion valgrind chromium
              python3-pytest python3-matplotlib mypy)
 elif [[ -n "${1:-}" ]]; then

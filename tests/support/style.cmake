@@ -1,4 +1,4 @@
-# ctest -L style: formatting. The target `tidy`: clang-tidy (minutes).
+# ctest -L style: formatting, and Doxygen's warnings. The targets `tidy`: clang-tidy (minutes), and `doc`.
 
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
 if(CLANG_FORMAT)
@@ -16,4 +16,14 @@ if(RUN_CLANG_TIDY)
     COMMAND ${RUN_CLANG_TIDY} -quiet -p ${PROJECT_BINARY_DIR}
             "${PROJECT_SOURCE_DIR}/(service/.*|tests/conformance/bits_main)[.]cpp$$"
     USES_TERMINAL)
+endif()
+
+# The pages of adstar::core, below build/<preset>/doc/html; a warning fails.
+find_program(DOXYGEN NAMES doxygen)
+if(DOXYGEN)
+  configure_file(${PROJECT_SOURCE_DIR}/include/adstar/Doxyfile.in ${PROJECT_BINARY_DIR}/Doxyfile @ONLY)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/doc)
+  add_custom_target(doc COMMAND ${DOXYGEN} ${PROJECT_BINARY_DIR}/Doxyfile)
+  add_test(NAME style_doxygen COMMAND ${DOXYGEN} ${PROJECT_BINARY_DIR}/Doxyfile)
+  set_tests_properties(style_doxygen PROPERTIES LABELS style TIMEOUT 120)
 endif()
