@@ -26,6 +26,11 @@ clock=(step_request run_control)
 standby=(standby_beat standby_record standby_state)
 telemetry=(command_status attitude_state momentum_state wheel_state pointing_state body_state joint_state fleet_state service_status step_timing service_roster
   step_reply run_control_status)
+# And those of service/dds/ros2.hpp.
+torques=("${torques[@]/#/adstar/}" 'rt/*/torque')
+clock=("${clock[@]/#/adstar/}")
+standby=("${standby[@]/#/adstar/}")
+telemetry=("${telemetry[@]/#/adstar/}" 'rt/*/attitude' 'rt/*/angular_momentum' rt/clock rt/tf)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -88,7 +93,7 @@ governance() {
       <liveliness_protection_kind>SIGN</liveliness_protection_kind>
       <rtps_protection_kind>SIGN</rtps_protection_kind>
       <topic_access_rules>
-$(for topic in "${torques[@]}" "${clock[@]}" "${standby[@]}"; do topic_rule "adstar/$topic" SIGN; done)
+$(for topic in "${torques[@]}" "${clock[@]}" "${standby[@]}"; do topic_rule "$topic" SIGN; done)
 $(topic_rule '*' NONE)
       </topic_access_rules>
     </domain_rule>
@@ -100,7 +105,7 @@ XML
 criteria() {  # publish or subscribe, topics...
   echo "        <$1>"
   echo "          <topics>"
-  printf '            <topic>adstar/%s</topic>\n' "${@:2}"
+  printf '            <topic>%s</topic>\n' "${@:2}"
   echo "          </topics>"
   echo "          <partitions><partition>*</partition></partitions>"
   echo "        </$1>"

@@ -224,7 +224,7 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
     segment->telemetry.skip_all();
   }
   {
-    const CommandIntake intake(participant, *segment, directory, others, answers.commands,
+    const CommandIntake intake(participant, *segment, scene, directory, others, answers.commands,
                                options.service);
     const std::size_t sockets = participant.bind_sockets_to_interface();
     segment->snapshot_requested.store(1);

@@ -38,8 +38,9 @@ constexpr scene::ActuatorKind kKind<adstar_ThrusterCommand> = scene::ActuatorKin
 }  // namespace
 
 CommandIntake::CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
-                             const Directory& directory, const OtherServices& others,
-                             StatusWriter& statuses, std::string service)
+                             const scene::Scene& scene, const Directory& directory,
+                             const OtherServices& others, StatusWriter& statuses,
+                             std::string service)
     : segment_(segment),
       directory_(directory),
       others_(others),
@@ -60,6 +61,10 @@ CommandIntake::CommandIntake(const dds::Participant& participant, runtime::Share
   wait_set_.attach(thrusters_);
   wait_set_.attach(joints_);
   requests_.attach_to(wait_set_);
+  if (scene.ros2 && scene.ros2->torque_validity_ns) {
+    ros2_.emplace(participant, scene);
+    ros2_->attach_to(wait_set_);
+  }
   thread_ = std::thread([this] { listen(); });
 }
 
@@ -103,7 +108,30 @@ bool CommandIntake::take_commands() {
   taken += take_from(dipoles_);
   taken += take_from(thrusters_);
   taken += take_from(joints_);
+  taken += ros2_ ? take_from_ros2() : 0;
   return taken > 0;
+}
+
+std::size_t CommandIntake::take_from_ros2() {
+  return ros2_->take([this](const ros2::WrenchStamped& wrench, const dds_sample_info_t& info,
+                            const Ros2Target& target) {
+    if (is_stale(info,
+                 [&] { return fmt::format("a torque of ROS 2 for '{}'", target.spacecraft); })) {
+      stale_.fetch_add(1);
+      return;
+    }
+    const Ros2Wish wish = wish_of(wrench, target);
+    if (wish.actuator != nullptr) {
+      take(ros2_->command(wrench, target, *wish.actuator));
+      return;
+    }
+    refused_.fetch_add(1);
+    static dds::RateLimit limit(1);
+    if (const auto dropped = limit.admit()) {
+      spdlog::warn("ROS 2: refused a torque for '{}': {}; {} more since the last one told",
+                   target.spacecraft, wish.objection, *dropped);
+    }
+  });
 }
 
 template <class Command>

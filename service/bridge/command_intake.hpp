@@ -5,12 +5,14 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <string>
 #include <thread>
 
 #include "service/bridge/directory.hpp"
 #include "service/bridge/other_services.hpp"
 #include "service/bridge/request_intake.hpp"
+#include "service/bridge/ros2_torques.hpp"
 #include "service/bridge/status_writer.hpp"
 #include "service/dds/reader.hpp"
 #include "service/dds/wait_set.hpp"
@@ -23,8 +25,8 @@ namespace adstar::bridge {
 class CommandIntake {
  public:
   CommandIntake(const dds::Participant& participant, runtime::SharedSegment& segment,
-                const Directory& directory, const OtherServices& others, StatusWriter& statuses,
-                std::string service);
+                const scene::Scene& scene, const Directory& directory, const OtherServices& others,
+                StatusWriter& statuses, std::string service);
   ~CommandIntake();
   CommandIntake(const CommandIntake&) = delete;
   CommandIntake& operator=(const CommandIntake&) = delete;
@@ -39,6 +41,7 @@ class CommandIntake {
  private:
   void listen() noexcept;
   bool take_commands();
+  std::size_t take_from_ros2();
   template <class Command>
   std::size_t take_from(dds::Reader<Command>& reader);
   template <class Command>
@@ -57,6 +60,7 @@ class CommandIntake {
   dds::Reader<adstar_DipoleCommand> dipoles_;
   dds::Reader<adstar_ThrusterCommand> thrusters_;
   dds::Reader<adstar_JointTorqueCommand> joints_;
+  std::optional<Ros2Torques> ros2_;
   RequestIntake requests_;
   dds::WaitSet wait_set_;
   std::atomic<std::uint64_t> handed_over_{0};

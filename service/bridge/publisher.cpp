@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include "service/bridge/ros2_torques.hpp"
 #include "service/bridge/roster.hpp"
 #include "service/dds/rate_limit.hpp"
 #include "service/dds/refusal_text.hpp"
@@ -68,6 +69,9 @@ Publisher::Publisher(const dds::Participant& participant, runtime::MappedSegment
       timing_(participant),
       snapshot_(runtime::fleet_words(segment.fleet_size())),
       next_chunk_(chunks_of(segment.fleet_size())) {
+  if (scene.ros2) {
+    ros2_.emplace(participant, scene);
+  }
   for (const std::uint32_t index : scene.telemetry.watched) {
     const std::string_view name = directory.spacecraft_name(index);
     if (scene.telemetry.attitude_every > 0) {
@@ -113,6 +117,7 @@ Publisher::Left Publisher::publish_some() {
     publish_step_replies(replies);
   }
   publish_health();
+  publish_time();
   return verdicts || telemetry ? Left::more : fleet ? Left::fleet : Left::nothing;
 }
 
@@ -131,6 +136,7 @@ void Publisher::say(const runtime::VerdictRecord& record) {
   const std::string_view spacecraft = directory_.spacecraft_name(record.spacecraft);
   const std::string_view actuator = directory_.actuator_name(record.spacecraft, record.actuator);
   count_unsent(answers_.commands.write(dds::to_sample(record, spacecraft, actuator, service_)));
+  log_if_of_ros2(record, spacecraft);
   ++counts_.verdicts;
 }
 
@@ -181,6 +187,9 @@ bool Publisher::publish_telemetry() {
     }
     if ((record->topics & runtime::kTopicMomentum) != 0) {
       count_unsent(momentum_.write(dds::to_momentum(*record, spacecraft, service_)));
+    }
+    if (ros2_) {
+      counts_.unsent += ros2_->publish(*record);
     }
     ++counts_.telemetry;
   }
@@ -284,6 +293,7 @@ void Publisher::publish_health() {
   if (const std::uint64_t count = segment_->status.read(status);
       count > 0 && count != status_seen_) {
     status_seen_ = count;
+    status_time_ns_ = status.time_ns;
     count_unsent(status_.write(dds::to_sample(status, facts_)));
   }
   runtime::TimingRecord timing;
@@ -291,6 +301,14 @@ void Publisher::publish_health() {
       count > 0 && count != timing_seen_) {
     timing_seen_ = count;
     count_unsent(timing_.write(dds::to_sample(timing, service_)));
+  }
+}
+
+/// With every status, which a standby publishes too: it keeps the time to itself.
+void Publisher::publish_time() {
+  if (ros2_ && time_seen_ != status_seen_) {
+    time_seen_ = status_seen_;
+    counts_.unsent += ros2_->repeat_time(status_time_ns_);
   }
 }
 
@@ -309,6 +327,7 @@ bool Publisher::wait_for_readers(std::chrono::milliseconds timeout) {
   all = fleet_.wait_for_acks(left()) && all;
   all = status_.wait_for_acks(left()) && all;
   all = timing_.wait_for_acks(left()) && all;
+  all = (!ros2_ || ros2_->wait_for_readers(deadline)) && all;
   all = answers_.steps.writer().wait_for_acks(left()) && all;
   all = answers_.controls.writer().wait_for_acks(left()) && all;
   return answers_.commands.writer().wait_for_acks(left()) && all;

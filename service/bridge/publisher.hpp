@@ -5,11 +5,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "service/bridge/directory.hpp"
 #include "service/bridge/options.hpp"
+#include "service/bridge/ros2_publisher.hpp"
 #include "service/bridge/status_writer.hpp"
 #include "service/dds/convert.hpp"
 #include "service/dds/writer.hpp"
@@ -20,7 +22,7 @@ namespace adstar::bridge {
 
 struct PublishedCounts {
   std::uint64_t verdicts = 0;
-  std::uint64_t telemetry = 0;  ///< records; each is a sample on one topic or two
+  std::uint64_t telemetry = 0;  ///< records; each is a sample on one topic or more
   std::uint64_t fleet_chunks = 0;
   std::uint64_t unsent = 0;  ///< samples that Cyclone had no room for
 };
@@ -61,6 +63,7 @@ class Publisher {
   bool publish_fleet();
   void publish_step_replies(std::size_t count);
   void publish_control_answers();
+  void publish_time();
   void count_unsent(bool sent) { counts_.unsent += sent ? 0 : 1; }
 
   runtime::MappedSegment& segment_;
@@ -77,9 +80,12 @@ class Publisher {
   dds::Writer<adstar_FleetState> fleet_;
   dds::Writer<adstar_ServiceStatus> status_;
   dds::Writer<adstar_StepTiming> timing_;
+  std::optional<Ros2Publisher> ros2_;
   PublishedCounts counts_;
   std::uint64_t fleet_seen_ = 0;
   std::uint64_t status_seen_ = 0;
+  std::uint64_t time_seen_ = 0;
+  std::int64_t status_time_ns_ = 0;
   std::uint64_t timing_seen_ = 0;
   std::vector<std::uint64_t> snapshot_;      ///< our copy of the fleet slot
   std::size_t next_chunk_ = 0;               ///< of the snapshot, to be sent

@@ -1,6 +1,6 @@
 #pragma once
-// Typed reader of one topic; name and QoS come from topics.hpp. Samples are lent for the length of
-// a callback.
+// Typed reader of one topic; name and QoS come from topics.hpp, or from who has topics of its own.
+// Samples are lent for the length of a callback.
 
 #include <array>
 #include <cstddef>
@@ -26,10 +26,14 @@ class Reader {
 
   /// With a QoS of the scene's instead of the topic's.
   Reader(const Participant& participant, const Qos& qos)
-      : topic_(make_topic<T>(participant)),
+      : Reader(participant, *topic_of<T>().descriptor, topic_of<T>().name, qos) {}
+
+  Reader(const Participant& participant, const dds_topic_descriptor_t& descriptor, const char* name,
+         const Qos& qos)
+      : topic_(make_topic(participant, descriptor, name)),
         reader_(dds_create_reader(participant.subscriber(), topic_.handle(), make_qos(qos).get(),
                                   nullptr),
-                "dds_create_reader", topic_subject<T>()) {}
+                "dds_create_reader", topic_.subject()) {}
 
   /// Calls on_sample(const T&, const dds_sample_info_t&) for each sample with data, and
   /// on_gone(const T& key, const dds_sample_info_t&) when a key was disposed or lost its last
@@ -37,7 +41,7 @@ class Reader {
   /// waits.
   template <class OnSample, class OnGone>
   std::size_t take(OnSample&& on_sample, OnGone&& on_gone) {
-    Loan loan{reader_.handle(), {}, 0};
+    Loan loan{reader_, {}, 0};
     std::array<dds_sample_info_t, kBatch> infos;
     loan.count =
         check(dds_take(reader_.handle(), loan.samples.data(), infos.data(), kBatch, kBatch),
@@ -74,13 +78,13 @@ class Reader {
 
  private:
   struct Loan {
-    dds_entity_t reader;
+    const Entity& reader;
     std::array<void*, kBatch> samples;
     dds_return_t count;
     ~Loan() {
       if (count > 0) {
-        check_quietly(dds_return_loan(reader, samples.data(), count), "dds_return_loan",
-                      topic_of<T>().name);
+        check_quietly(dds_return_loan(reader.handle(), samples.data(), count), "dds_return_loan",
+                      reader.subject());
       }
     }
   };

@@ -1,6 +1,6 @@
 #pragma once
-// Typed writer of one topic; name and QoS come from topics.hpp. Its calls may be made from several
-// threads.
+// Typed writer of one topic; name and QoS come from topics.hpp, or from who has topics of its own. Its
+// calls may be made from several threads.
 
 #include <chrono>
 #include <cstdint>
@@ -15,16 +15,11 @@
 
 namespace adstar::dds {
 
-template <class T>
-std::string topic_subject() {
-  return std::string("topic '") + topic_of<T>().name + "'";
-}
-
-template <class T>
-Entity make_topic(const Participant& participant) {
-  return {dds_create_topic(participant.handle(), topic_of<T>().descriptor, topic_of<T>().name,
-                           nullptr, nullptr),
-          "dds_create_topic", topic_subject<T>()};
+/// A topic as error messages call it.
+inline Entity make_topic(const Participant& participant, const dds_topic_descriptor_t& descriptor,
+                         const char* name) {
+  return {dds_create_topic(participant.handle(), &descriptor, name, nullptr, nullptr),
+          "dds_create_topic", std::string("topic '") + name + "'"};
 }
 
 template <class T>
@@ -34,10 +29,14 @@ class Writer {
 
   /// With a QoS of the scene's instead of the topic's.
   Writer(const Participant& participant, const Qos& qos)
-      : topic_(make_topic<T>(participant)),
+      : Writer(participant, *topic_of<T>().descriptor, topic_of<T>().name, qos) {}
+
+  Writer(const Participant& participant, const dds_topic_descriptor_t& descriptor, const char* name,
+         const Qos& qos)
+      : topic_(make_topic(participant, descriptor, name)),
         writer_(dds_create_writer(participant.publisher(), topic_.handle(), make_qos(qos).get(),
                                   nullptr),
-                "dds_create_writer", topic_subject<T>()) {}
+                "dds_create_writer", topic_.subject()) {}
 
   /// False when Cyclone's send window is full: the sample is lost, nobody waited. Throws Error on
   /// anything else.

@@ -10,6 +10,7 @@
 #include "adstar/gyrostat.hpp"
 #include "adstar/integrators/all.hpp"
 #include "service/report/numbers.hpp"
+#include "service/report/ros2_report.hpp"
 #include "service/report/spacecraft_report.hpp"
 
 namespace adstar::report {
@@ -256,7 +257,8 @@ std::string scene_report(const scene::Scene& scene) {
                                   ? seconds<double>(*scene.simulation.duration_ns)
                                   : std::numeric_limits<double>::max();
   return simulation_report(scene.simulation) + spacecraft_report(scene.spacecraft, end_of_run_s) +
-         turn_report(scene) + telemetry_report(scene) + dds_report(scene) + left_out(scene);
+         turn_report(scene) + telemetry_report(scene) + dds_report(scene) + ros2_report(scene) +
+         left_out(scene);
 }
 
 }  // namespace adstar::report

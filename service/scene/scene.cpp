@@ -71,6 +71,17 @@ const Spacecraft* first_with_reference(const std::vector<Spacecraft>& spacecraft
   return found == spacecraft.end() ? nullptr : &*found;
 }
 
+const Actuator* first_commanded_torque(const Spacecraft& spacecraft, Frame frame) {
+  const std::size_t end =
+      spacecraft.linked ? spacecraft.first_torque.at(1) : spacecraft.torques.size();
+  const auto found = std::find_if(
+      spacecraft.actuators.begin(), spacecraft.actuators.end(), [&](const Actuator& actuator) {
+        return actuator.kind == ActuatorKind::torque && actuator.index < end &&
+               std::get<Commanded<double>>(spacecraft.torques[actuator.index]).frame == frame;
+      });
+  return found == spacecraft.actuators.end() ? nullptr : &*found;
+}
+
 SceneError::SceneError(const std::vector<std::string>& complaints)
     : std::runtime_error(lines_of(complaints)) {}
 
@@ -114,6 +125,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   scene.service = read_service(root);
   scene.standby = read_standby(root, scene.simulation, scene.service);
   scene.dds = read_dds(root, file);
+  scene.ros2 = read_ros2(root, fleet.names, scene.telemetry, scene.dds);
   scene.log = read_log(root);
   root.refuse_unknown();
   if (complaints.count() > 0) {

@@ -168,6 +168,13 @@ struct Dds {
   std::optional<SecurityFiles> security;  ///< none: whoever reaches the interface is trusted
 };
 
+/// Topics as ROS 2 nodes have them, beside our own, of Telemetry::watched.
+struct Ros2 {
+  std::optional<std::int64_t> torque_validity_ns = 500'000'000;  ///< none: no torques from there
+  bool clock = true;                                             ///< rt/clock
+  bool tf = true;                                                ///< rt/tf
+};
+
 struct Log {
   std::string level = "info";
   std::string file;  ///< empty: stderr
@@ -182,6 +189,7 @@ struct Scene {
   std::optional<Standby> standby;  ///< none: the scene is for one daemon alone
   Service service;
   Dds dds;
+  std::optional<Ros2> ros2;  ///< none: no such topics
   Log log;
 };
 
@@ -199,6 +207,9 @@ const Spacecraft* first_linked(const std::vector<Spacecraft>& spacecraft);
 
 /// The first spacecraft that has an orbit or a target; null when none has.
 const Spacecraft* first_with_reference(const std::vector<Spacecraft>& spacecraft);
+
+/// Its first commanded torque that is given in that frame; of linked bodies, of the hub. Null: there is none.
+const Actuator* first_commanded_torque(const Spacecraft& spacecraft, Frame frame);
 
 /// The first spacecraft that names a torque; null when all are free.
 const Spacecraft* first_forced(const std::vector<Spacecraft>& spacecraft);

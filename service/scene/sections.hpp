@@ -37,6 +37,8 @@ Service read_service(Keys& root);
 std::optional<Standby> read_standby(Keys& root, const Simulation& simulation,
                                     const Service& service);
 Dds read_dds(Keys& root, const std::filesystem::path& file);
+std::optional<Ros2> read_ros2(Keys& root, const std::vector<std::string>& names,
+                              const Telemetry& telemetry, const Dds& dds);
 Log read_log(Keys& root);
 
 /// "2026-01-01T00:00:00[.5]" in that scale, of a TOML date-time or a string; as Simulation::epoch.

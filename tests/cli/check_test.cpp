@@ -22,7 +22,7 @@ TEST_P(CheckOf, a_good_scene_says_what_is_modelled_and_what_is_left_out) {
 INSTANTIATE_TEST_SUITE_P(AllScenes, CheckOf,
                          ::testing::Values("demo", "fleet", "lockstep", "paper_free",
                                            "paper_forced", "damped", "profile_table", "mixed",
-                                           "too_fast", "wheels", "space"),
+                                           "too_fast", "wheels", "space", "ros2"),
                          [](const auto& the) { return std::string(the.param); });
 
 TEST(Check, a_wrong_scene_is_refused_with_all_its_faults_at_once) {

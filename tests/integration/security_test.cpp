@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "adstar/vec3.hpp"
+#include "service/dds/ros2.hpp"
 #include "tests/integration/daemon_harness.hpp"
 #include "tests/support/process.hpp"
 
@@ -174,6 +175,41 @@ TEST(Security, a_watcher_sees_telemetry_and_answers_but_may_not_write_a_command)
   const auto now = momentum_now(corner);
   ASSERT_TRUE(now.has_value());
   EXPECT_EQ(momentum_of(*now), kUnmoved);
+  EXPECT_EQ(daemon.stop(), 0) << daemon.log();
+}
+
+TEST(Security, topics_of_ros_2_are_for_those_for_whom_the_native_ones_are) {
+  auto corner = private_corner();
+  corner.partition.clear();
+  Daemon daemon(secured_scene(corner) + "[ros2]\nenabled = true\n");
+  const std::string torque = ros2::name_of("sat1", ros2::kTorque);
+  const std::string attitude = ros2::name_of("sat1", ros2::kAttitude);
+  using Torques = dds::Writer<ros2::WrenchStamped>;
+  {
+    GroundStation ground(as(corner, authorities().files("ours/commander")));
+    Torques torques(ground.participant(), *ros2::kTorque.descriptor, torque.c_str(), ros2::kOut);
+    std::string frame = ros2::body_frame("sat1");
+    ASSERT_TRUE(ground.until([&] {
+      torques.write({{{}, frame.data()}, {{}, {0.1, 0, 0}}});
+      return ground.momentum.contains("sat1") && momentum_of(ground.momentum["sat1"]) != kUnmoved;
+    })) << daemon.log();
+  }
+  {
+    const dds::Participant watcher(as(corner, authorities().files("ours/watcher")));
+    dds::Reader<ros2::QuaternionStamped> reader(watcher, *ros2::kAttitude.descriptor,
+                                                attitude.c_str(), ros2::kIn);
+    bool seen = false;
+    EXPECT_TRUE(testing::eventually([&] {
+      reader.take([&](const auto&, const auto&) { seen = true; });
+      return seen;
+    })) << daemon.log();
+    EXPECT_THROW(
+        const Torques writer(watcher, *ros2::kTorque.descriptor, torque.c_str(), ros2::kOut),
+        dds::NotAllowed);
+    EXPECT_THROW(const dds::Reader<ros2::WrenchStamped> spy(watcher, *ros2::kTorque.descriptor,
+                                                            torque.c_str(), ros2::kIn),
+                 dds::NotAllowed);
+  }
   EXPECT_EQ(daemon.stop(), 0) << daemon.log();
 }
 
