@@ -126,11 +126,7 @@ std::size_t CommandIntake::take_from_ros2() {
       return;
     }
     refused_.fetch_add(1);
-    static dds::RateLimit limit(1);
-    if (const auto dropped = limit.admit()) {
-      spdlog::warn("ROS 2: refused a torque for '{}': {}; {} more since the last one told",
-                   target.spacecraft, wish.objection, *dropped);
-    }
+    log_refused_ros2(target.spacecraft, wish.objection);
   });
 }
 

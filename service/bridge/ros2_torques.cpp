@@ -82,21 +82,23 @@ adstar_TorqueCommand Ros2Torques::command(const ros2::WrenchStamped& wrench,
   return command;
 }
 
+void log_refused_ros2(std::string_view spacecraft, std::string_view why) {
+  static dds::RateLimit limit(1);
+  if (const auto dropped = limit.admit()) {
+    spdlog::warn("ROS 2: a torque for '{}' is not obeyed: {}{}", spacecraft, why,
+                 *dropped > 0 ? fmt::format(" ({} more since the last one told)", *dropped) : "");
+  }
+}
+
 void log_if_of_ros2(const runtime::VerdictRecord& record, std::string_view spacecraft) {
   using runtime::Verdict;
-  const bool obeyed = record.verdict != Verdict::refused && record.verdict != Verdict::expired &&
-                      record.verdict != Verdict::outranked;
-  static dds::RateLimit limit(1);
-  if (record.commander.high != kRos2Commander || obeyed) {
+  if (record.commander.high != kRos2Commander) {
     return;
   }
-  if (const auto dropped = limit.admit()) {
-    spdlog::warn("ROS 2: a torque for '{}' is {}{}; {} more since the last one told", spacecraft,
-                 dds::verdict_text(record.verdict),
-                 record.verdict == Verdict::refused
-                     ? fmt::format(": {}", dds::reason_text(record.reason))
-                     : "",
-                 *dropped);
+  if (record.verdict == Verdict::refused) {
+    log_refused_ros2(spacecraft, dds::reason_text(record.reason));
+  } else if (record.verdict == Verdict::outranked) {
+    log_refused_ros2(spacecraft, "a commander of a higher priority has the actuator");
   }
 }
 

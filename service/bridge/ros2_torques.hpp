@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "service/dds/convert.hpp"
@@ -74,7 +75,10 @@ class Ros2Torques {
   std::vector<Topic> topics_;
 };
 
-/// A torque of ROS 2 that was not obeyed is told in the log: its sender hears nothing of CommandStatus.
+/// For the log, at most a line a second: who sends a wrench hears nothing of CommandStatus.
+void log_refused_ros2(std::string_view spacecraft, std::string_view why);
+
+/// The same when the gate would not have it.
 void log_if_of_ros2(const runtime::VerdictRecord& record, std::string_view spacecraft);
 
 }  // namespace adstar::bridge

@@ -15,7 +15,7 @@
 
 namespace adstar::dds {
 
-/// A topic as error messages call it.
+/// Error messages call it "topic 'name'".
 inline Entity make_topic(const Participant& participant, const dds_topic_descriptor_t& descriptor,
                          const char* name) {
   return {dds_create_topic(participant.handle(), &descriptor, name, nullptr, nullptr),

@@ -46,15 +46,15 @@ std::string ros2_report(const scene::Scene& scene) {
   if (!scene.ros2->torque_validity_ns) {
     return text + "  hears no torques\n";
   }
-  text +=
-      fmt::format("  hears rt/<spacecraft>/torque, each message in force for {} or to the next\n",
-                  scene::format_duration(*scene.ros2->torque_validity_ns));
+  text += fmt::format(
+      "  hears rt/<spacecraft>/torque, each message in force for {} or until the next\n",
+      scene::format_duration(*scene.ros2->torque_validity_ns));
   std::map<std::string, std::size_t> alike;
   for (const std::uint32_t index : scene.telemetry.watched) {
     ++alike[moved_by(scene.spacecraft[index])];
   }
   for (const auto& [what, count] : alike) {
-    text += fmt::format("    {}: {}\n", what, counted(count));
+    text += fmt::format("    {} spacecraft: {}\n", counted(count), what);
   }
   return text;
 }

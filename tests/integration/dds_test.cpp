@@ -126,7 +126,8 @@ TEST(DdsIncompatibleQos, is_reported_with_the_topic_and_the_policy) {
   {
     const dds::Participant participant(testing::private_corner());
     dds::Writer<adstar_TorqueCommand> commands(participant);  // volatile
-    const dds::Entity topic = dds::make_topic<adstar_TorqueCommand>(participant);
+    const dds::Entity topic =
+        dds::make_topic(participant, adstar_TorqueCommand_desc, "adstar/torque_command");
     const dds::QosHandle qos = dds::make_qos(dds::kLatest);
     const dds::Entity stricter(
         dds_create_reader(participant.subscriber(), topic.handle(), qos.get(), nullptr),

@@ -61,7 +61,7 @@ TEST(SceneLoader, refuses_an_unknown_key_and_names_the_nearest) {
   EXPECT_EQ(
       refusal(in_section("lgo", "")),
       "scene.toml:6:2: lgo: got an unknown key, expected one of simulation, earth, spacecraft, "
-      "telemetry, budget, run, service, standby, dds, log; try log");
+      "telemetry, budget, run, service, standby, dds, ros2, log; try log");
   EXPECT_EQ(refusal(in_section("log", "colour = \"red\"")),
             "scene.toml:7:1: log.colour: got an unknown key, expected one of level, file; try "
             "removing it");
