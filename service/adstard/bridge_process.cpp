@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <sched.h>
 #include <spawn.h>
@@ -70,7 +71,18 @@ std::string bridge_beside_this_program() {
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "adstar-bridge").string();
 }
 
-BridgeProcess::~BridgeProcess() { finish(0); }
+BridgeProcess::BridgeProcess(BridgeCommand command)
+    : command_(std::move(command)),
+      program_fd_(open(command_.program.c_str(), O_PATH | O_CLOEXEC)) {
+  if (program_fd_ < 0) {
+    throw std::system_error(errno, std::generic_category(), "starting " + command_.program);
+  }
+}
+
+BridgeProcess::~BridgeProcess() {
+  finish(0);
+  close(program_fd_);
+}
 
 void BridgeProcess::start() {
   SpawnPlan plan;
@@ -118,8 +130,9 @@ void BridgeProcess::start() {
     argv.push_back(argument.data());
   }
   argv.push_back(nullptr);
-  const int error = posix_spawn(&pid_, command_.program.c_str(), &plan.actions, &plan.attributes,
-                                argv.data(), environ);
+  const std::string program = fmt::format("/proc/self/fd/{}", program_fd_);
+  const int error =
+      posix_spawn(&pid_, program.c_str(), &plan.actions, &plan.attributes, argv.data(), environ);
   if (error != 0) {
     pid_ = -1;
     throw std::system_error(error, std::generic_category(), "starting " + command_.program);

@@ -1,5 +1,8 @@
 #pragma once
 // adstar-bridge as a child process: started, watched, restarted with back-off, stopped.
+//
+// The program is opened once, and each bridge is that very file: an upgrade puts another in its place, which does not know
+// this daemon's shared memory.
 
 #include <cstdint>
 #include <string>
@@ -26,7 +29,7 @@ std::string bridge_beside_this_program();
 
 class BridgeProcess {
  public:
-  explicit BridgeProcess(BridgeCommand command) : command_(std::move(command)) {}
+  explicit BridgeProcess(BridgeCommand command);
   ~BridgeProcess();
   BridgeProcess(const BridgeProcess&) = delete;
   BridgeProcess& operator=(const BridgeProcess&) = delete;
@@ -52,6 +55,7 @@ class BridgeProcess {
 
  private:
   BridgeCommand command_;
+  int program_fd_;
   pid_t pid_ = -1;
   std::string how_;
   int exit_code_ = -1;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <sys/prctl.h>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -45,6 +46,7 @@ int attach_and_run(const bridge::Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  prctl(PR_SET_NAME, "adstar-bridge");  // adstard starts it by the number of a file
   const auto options = bridge::parse_options(argc, argv);
   if (!options) {
     std::fputs("adstar-bridge is started by adstard, never by hand; run: adstard scene.toml\n",
