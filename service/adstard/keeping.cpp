@@ -61,7 +61,8 @@ void begin_run(Plan& plan, const Options& options) {
 }
 
 Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
-                 runtime::MappedSegment& segment, const run::Checkpoint* state) {
+                 runtime::MappedSegment& segment, const run::Checkpoint* state)
+    : plan_(plan) {
   const scene::Scene& scene = plan.scene;
   std::unique_ptr<run::RunLog> log;
   run::Flight flight{tick.gate(), tick.controls(), &tick.fleet(), scene.simulation.step_ns, {}};
@@ -95,6 +96,11 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
 void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint,
                     run::Flight& flight, runtime::VerdictRing& verdicts) {
   hot_ = run::HotJournalFile::open(run_);
+  if (!plan.run->take_good_end() && !hot_) {
+    spdlog::warn(
+        "what the run had in memory is gone (the machine was started anew?): beats and commands "
+        "since the last sync are lost, and nothing before");
+  }
   const run::Resumed resumed = run::resume(*plan.run, hot_ ? &**hot_ : nullptr, plan.scene,
                                            fingerprint, accept_loss, flight, verdicts);
   for (const std::string& note : resumed.notes) {
@@ -130,6 +136,12 @@ void Keeping::finish(const runtime::Tick& tick) {
                             tick.report().step.load(std::memory_order_relaxed)};
   if (recorder_->finish(tick.fleet(), at) && hot_) {
     run::HotJournalFile::remove(run_);
+    try {
+      plan_.run->note_good_end();
+    } catch (const run::RunError& error) {
+      spdlog::warn("{}; the next start will say that memory is gone, which it is not",
+                   error.what());
+    }
   }
 }
 

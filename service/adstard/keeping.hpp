@@ -33,7 +33,7 @@ void begin_run(Plan& plan, const Options& options);
 /// Keeps the run while it lives. Without a directory it only hashes the state.
 class Keeping {
  public:
-  /// Before tick.run(): begins the new run, or brings the tick to where a run was that is gone on with, or
+  /// `plan` outlives it. Before tick.run(): begins the new run, or brings the tick to where a run was that is gone on with, or
   /// to the `state` of a primary. Throws RunError.
   Keeping(Plan& plan, const Options& options, runtime::Tick& tick, runtime::MappedSegment& segment,
           const run::Checkpoint* state = nullptr);
@@ -49,6 +49,7 @@ class Keeping {
   void begin_at(const Plan& plan, std::uint64_t fingerprint, const run::Checkpoint& state,
                 run::Flight& flight);
 
+  const Plan& plan_;
   std::uint64_t run_ = 0;
   std::uint64_t next_number_ = 1, last_in_files_ = 0;
   bool begins_with_checkpoint_ = false;  ///< its journal does not tell how it came there

@@ -195,11 +195,6 @@ Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
     resumed.records.next_number = resumed.records.highest + 1;
     resumed.records.last_in_files = resumed.records.highest;
   }
-  if (hot == nullptr) {
-    resumed.notes.push_back(
-        "what the run had in memory is gone (the machine was started anew?): beats and commands "
-        "since the last sync are lost, and nothing before");
-  }
   LastVerdicts last(verdicts);
   std::span<const JournalRecord> left(records.heard);
   const auto carry_on_to = [&](std::uint64_t step) {

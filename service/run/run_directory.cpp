@@ -100,6 +100,14 @@ RunDirectory RunDirectory::open(const fs::path& path, Use use) {
   return directory;
 }
 
+void RunDirectory::note_good_end() const { replace_file(path_ / "ended", {}); }
+
+bool RunDirectory::take_good_end() const {
+  const bool noted = fs::remove(path_ / "ended");
+  File(path_, O_RDONLY | O_DIRECTORY).sync();
+  return noted;
+}
+
 void RunDirectory::hold() {
   lock_ = File(path_ / "lock", O_RDWR | O_CREAT);
   if (flock(lock_.fd(), LOCK_EX | LOCK_NB) != 0) {

@@ -6,6 +6,7 @@
 //   journal-000012.bin                       likewise; the records go on from one to the next
 //   received.bin                             a standby's: the state of the primary, as it came
 //   lock                                     held by the daemon that flies it
+//   ended                                    while nobody does, if its last daemon left nothing in memory
 
 #include <cstdint>
 #include <filesystem>
@@ -39,6 +40,10 @@ class RunDirectory {
 
   const RunFacts& facts() const { return facts_; }
   const std::filesystem::path& path() const { return path_; }
+
+  void note_good_end() const;
+  /// Whether the last daemon noted one; it is forgotten.
+  bool take_good_end() const;
 
   std::vector<Numbered> checkpoints() const;  ///< newest first
   std::vector<Numbered> journals() const;     ///< oldest first
