@@ -1,0 +1,17 @@
+#!/bin/sh
+# What adstar@NAME.service runs: goes on with the run of the scene where there is one, and begins it where there is none.
+# With ADSTAR_ROLE=standby (standby.conf) it follows the daemon that flies the scene elsewhere, in a new run each time.
+#   fly NAME        the directories are those that systemd names: /etc/adstar, /var/lib/adstar
+scene=$CONFIGURATION_DIRECTORY/$1.toml
+run=$STATE_DIRECTORY/$1
+
+if [ "${ADSTAR_ROLE:-primary}" = standby ]; then
+  exec adstard "$scene" --standby --run "$run.standby-$INVOCATION_ID"
+fi
+if [ ! -e "$run/run.json" ]; then
+  exec adstard "$scene" --run "$run"
+fi
+if ! cmp -s "$scene" "$run/scene.toml"; then
+  echo "<4>$scene is not what $run began with: the run goes on with its own scene. To fly the new one: stop, rm -r $run, start" >&2
+fi
+exec adstard --resume "$run"
