@@ -12,25 +12,20 @@ for program in adstard adstar-bridge adstar; do
   [[ -x "$bin/$program" ]] || { echo "standby_split.sh: $bin/$program is missing; build it" >&2; exit 2; }
 done
 
-sides=(primary standby)
+hosts=(primary standby)
+wire=link0  # by the same name at both ends, so that both daemons read the same scene
 domain=77
-declare -A pid  # of the daemons that were not waited for yet
 work=$(mktemp -d)
 run=$work       # of this round: scene, run directories, logs
 
-now_ms() { echo $((${EPOCHREALTIME/[.,]/} / 1000)); }
-began_ms=$(now_ms)
-proved() { printf '%6d ms  %s\n' $(($(now_ms) - began_ms)) "$*"; }
-
-skip() {
-  echo "standby_split.sh: SKIPPED: no network namespaces can be made here (root and iproute2 are needed): $*" >&2
-  exit 77
-}
+support=$(dirname "${BASH_SOURCE[0]}")/../support
+source "$support/proof.sh"
+source "$support/two_hosts.sh"
 
 fail() {
   echo "standby_split.sh: FAILED: $*" >&2
   local side
-  for side in "${sides[@]}"; do
+  for side in "${hosts[@]}"; do
     echo "---- log of the $side" >&2
     # Of the cut wire Cyclone says hundreds of lines.
     { grep -v 'failed with retcode' "$run/$side.log" || true; } | tail -n 60 >&2
@@ -38,77 +33,21 @@ fail() {
   exit 1
 }
 
-# await SECONDS WHAT COMMAND...: until the command holds.
-await() {
-  local deadline=$((SECONDS + $1)) what=$2
-  shift 2
-  until "$@"; do
-    ((SECONDS < deadline)) || fail "waited in vain: $what"
-    sleep 0.02
-  done
-}
-
-netns() { echo "adstar-split-$$-$1"; }
-
 start() {  # side, options
   : > "$run/$1.log"  # for those who look before the daemon is there
   ip netns exec "$(netns "$1")" "$bin/adstard" "$run/scene.toml" --run "$run/$1" "${@:2}" 2> "$run/$1.log" &
   pid[$1]=$!
 }
 
-# By its number alone it might be somebody else by now: only the shell knows.
-flying() { [[ -n "${pid[$1]:-}" ]] && grep -qx "${pid[$1]}" <<< "$(jobs -pr)"; }
-ended() { ! flying "$1"; }
-
 logged() { grep -m 1 -oE "$2.*" "$run/$1.log"; }  # side, what it says: from there to the end of the line
 says() { logged "$@" > /dev/null || { flying "$1" || fail "the $1 has ended, and never said '$2'"; false; }; }
 
-ends_with() {  # side, exit code
-  await 15 "the $1 ends" ended "$1"
-  local code=0
-  wait "${pid[$1]}" || code=$?
-  unset "pid[$1]"
-  [[ $code == "$2" ]] || fail "the $1 ended with exit code $code, not $2"
-}
-
 clean_up() {
-  local side deadline=$((SECONDS + 10))
-  # In good order, so that nothing is left in shared memory; the bridges end with their daemons.
-  for side in "${!pid[@]}"; do
-    ended "$side" || kill -INT "${pid[$side]}" || true
-  done
-  for side in "${!pid[@]}"; do
-    while flying "$side" && ((SECONDS < deadline)); do sleep 0.02; done
-    ended "$side" || kill -KILL "${pid[$side]}" || true
-    wait "${pid[$side]}" || true
-  done
+  end_daemons
   remove_wire
   rm -rf "$work"
 }
 trap clean_up EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM
-
-# Both ends are called link0, so that both daemons read the same scene.
-make_wire() {
-  local side
-  for side in "${sides[@]}"; do
-    ip netns add "$(netns "$side")" && ip netns exec "$(netns "$side")" true || return
-  done
-  ip link add link0 netns "$(netns primary)" type veth peer name link0 netns "$(netns standby)" || return
-  ip -n "$(netns primary)" address add 10.77.0.1/24 dev link0 || return
-  ip -n "$(netns standby)" address add 10.77.0.2/24 dev link0 || return
-  for side in "${sides[@]}"; do
-    ip -n "$(netns "$side")" link set lo up && ip -n "$(netns "$side")" link set link0 up || return
-  done
-}
-
-remove_wire() {
-  local side
-  for side in "${sides[@]}"; do
-    ip netns del "$(netns "$side")" 2> /dev/null || true  # and the veth pair with it
-  done
-}
 
 adstar() {  # side, verb and operands
   timeout 30 ip netns exec "$(netns "$1")" "$bin/adstar" "${@:2}" --interface link0 --domain "$domain"
@@ -161,7 +100,7 @@ round() {  # side whose end of the wire goes down
   proved "the wire is cut at the $cut: $(logged standby 'the primary is gone')"
   # By checkpoints, a second apart: no client can speak on an interface that is down. The one after the next is of
   # after the cut for certain, and by then Cyclone has forgotten the other side (2 s), which is the harder case.
-  for side in "${sides[@]}"; do
+  for side in "${hosts[@]}"; do
     before=$(newest_checkpoint "$side")
     await 20 "checkpoints of the $side" written_beyond "$side" $((before + 1))
     flying "$side" || fail "the $side ended while the wire was cut"
@@ -231,8 +170,7 @@ interface = "link0"
 TOML
 }
 
-make_wire 2> "$work/ip" || skip "$(tail -n 1 "$work/ip")"
-remove_wire
-for side in "${sides[@]}"; do
+skip_without_wire standby_split.sh
+for side in "${hosts[@]}"; do
   round "$side"
 done
