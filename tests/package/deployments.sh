@@ -141,6 +141,9 @@ adstar flight torque a000 --torque-n-m 0 0 1e-4 --for 100ms "${secured[@]}" --pa
   fail "a command to the one that took over: $(cat "$work/verdict")"
 flying "shard_b (primary, plant)" && flying "shard_b (standby, flight)" || fail "shard b was touched"
 proved "shard a is killed: its standby goes on, $(head -n 1 "$work/verdict")"
+start flight shard_a
+ends_with "shard_a (primary, flight)" 3
+proved "the lost one comes back by itself, and is refused: $(tail -n 1 "$work/shard_a (primary, flight).log" | cut -c 1-120)"
 start flight shard_a standby
 await 30 "a new standby follows" says "shard_a (standby, flight)" "follows from step"
 proved "the other machine stands by for shard a now"
