@@ -132,7 +132,7 @@ Verb add_completion(CLI::App& program) {
           },
           ""));
   verb->footer("Example:\n  source <(adstar completion bash)");
-  return {verb, [&program] {
+  return {verb, [&program, shell] {
             Output output = Output::to_stdout();
             output.buffer() = bash_script(program);
             output.flush();

@@ -14,7 +14,9 @@ std::string completed(const std::string& words) {
 TEST(Completion, is_a_script_that_bash_accepts) {
   const Outcome outcome = shell("$ADSTAR completion bash | bash -n");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  expect_golden("completion_bash", client({"completion", "bash"}).out);
+  const Outcome script = client({"completion", "bash"});
+  EXPECT_EQ(script.code, 0);
+  expect_golden("completion_bash", script.out);
 }
 
 TEST(Completion, offers_verbs_first) {
