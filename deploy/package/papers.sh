@@ -68,7 +68,7 @@ section() { sed -n "/^## $1\$/,/^## /{/^## $1\$/p;/^## /!p}" "$source/service/RE
 {
   printf '# Name\nadstar-scene - what adstard flies: the keys of a scene\n\n# Description\n'
   tail -n +2 "$source/service/scene/README.md"
-  for name in "One beat" Wheels "Orbit, and the space around" "Linked bodies" "A run on disk" "Hot standby"; do
+  for name in "One beat" Wheels "Orbit, and the space around" "Linked bodies" "A run on disk" "Hot standby" "ROS 2"; do
     section "$name" > "$work/section"
     [[ -s "$work/section" ]] || { echo "papers.sh: service/README.md has no section '$name'" >&2; exit 1; }
     echo
