@@ -63,14 +63,14 @@ cat "$here/man/adstard.h2m" "$here/man/files.roff" > "$work/adstard.h2m"
 manual adstard 8 "flies the spacecraft of a scene in real time" "$work/adstard.h2m"
 ln -s adstard.8.gz "$output/adstar/man/man8/adstar-bridge.8.gz"
 
-# Sections of service/README.md about keys follow the page on scenes.
-section() { sed -n "/^## $1\$/,/^## /{/^## $1\$/p;/^## /!p}" "$source/service/README.md"; }
+# Sections of service/pages about keys follow the page on scenes.
+section() { cat "$source"/service/pages/*.md | sed -n "/^##\? $1\$/,/^##\? /{/^##\? $1\$/p;/^##\? /!p}"; }
 {
   printf '# Name\nadstar-scene - what adstard flies: the keys of a scene\n\n# Description\n'
   tail -n +2 "$source/service/scene/README.md"
   for name in "One beat" Wheels "Orbit, and the space around" "Linked bodies" "A run on disk" "Hot standby" "ROS 2"; do
     section "$name" > "$work/section"
-    [[ -s "$work/section" ]] || { echo "papers.sh: service/README.md has no section '$name'" >&2; exit 1; }
+    [[ -s "$work/section" ]] || { echo "papers.sh: service/pages has no section '$name'" >&2; exit 1; }
     echo
     cat "$work/section"
   done
@@ -114,7 +114,8 @@ papers adstar adstar
 papers dev libadstar-dev
 papers dashboard adstar-dashboard
 document adstar adstar README.md service/README.md service/scene/README.md service/adstar/trade.md \
+  $(cd "$source" && echo service/pages/*.md) \
   deploy/README.md deploy/security/README.md
-document dev libadstar-dev include/adstar/README.md include/adstar/multibody/README.md
+document dev libadstar-dev include/adstar/README.md include/adstar/notation.md include/adstar/schemes.md include/adstar/multibody/README.md
 
 find "$output" -path '*/man/*' -type f -exec gzip -9n {} +

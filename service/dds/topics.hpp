@@ -1,6 +1,6 @@
 #pragma once
 // Every topic, a row each: C++ type, descriptor, name, QoS of the writer, QoS of the reader.
-// To add a topic, add its IDL type and a row. Why each QoS is as it is: service/README.md.
+// To add a topic, add its IDL type and a row. Why each QoS is as it is: service/pages/commands.md.
 
 #include <command.h>
 #include <health.h>

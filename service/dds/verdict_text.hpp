@@ -5,7 +5,7 @@
 
 namespace adstar::dds {
 
-/// "accepted", "applied_late", ...: as service/README.md spells them.
+/// "accepted", "applied_late", ...: as service/pages/commands.md spells them.
 const char* verdict_text(runtime::Verdict verdict) noexcept;
 
 /// "unknown_actuator", ...

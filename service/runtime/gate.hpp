@@ -1,6 +1,6 @@
 #pragma once
 // The command gate: judges every command on the tick's side, arbitrates between commanders, keeps
-// each actuator's schedule, and answers. The rules are in service/README.md, "The life of a
+// each actuator's schedule, and answers. The rules are in service/pages/commands.md, "The life of a
 // command".
 //
 // A function of the scene and the stream (command, beat) alone. All memory is made at construction;

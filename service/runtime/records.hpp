@@ -1,6 +1,6 @@
 #pragma once
 // What crosses between adstard and adstar-bridge: plain records in SI units, frames as in
-// include/adstar/README.md. Spacecraft and actuators are indices into the scene.
+// include/adstar/notation.md. Spacecraft and actuators are indices into the scene.
 
 #include <array>
 #include <cstdint>

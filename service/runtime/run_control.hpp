@@ -1,6 +1,6 @@
 #pragma once
 // Run control: what somebody outside may do to a run, beside commanding torques. The rules:
-// service/README.md, "Run control".
+// service/pages/commands.md, "Run control".
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 // Beats from elsewhere: while the clock stands, a StepRequest lets it take so many steps, and is
 // answered when they are taken. One request at a time.
 //
-// Judges, counts and answers; never waits or allocates. The rules: service/README.md, "Lock-step".
+// Judges, counts and answers; never waits or allocates. The rules: service/pages/timing.md, "Lock-step".
 
 #include <cstdint>
 

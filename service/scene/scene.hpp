@@ -1,5 +1,5 @@
 #pragma once
-// A validated scene: plain structs, SI units, frames as in include/adstar/README.md. Whatever is in
+// A validated scene: plain structs, SI units, frames as in include/adstar/notation.md. Whatever is in
 // here is good; what was wrong with the file was said, all at once, in a SceneError.
 
 #include <cstdint>

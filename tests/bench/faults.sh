@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Injects one fault after the other into a 1 kHz run and prints what came of each, as a Markdown table.
-#   bash tests/bench/faults.sh [--write] [build/release] [faults...]     --write: into service/README.md
+#   bash tests/bench/faults.sh [--write] [build/release] [faults...]     --write: into service/pages/faults.md
 # Builds nothing: cmake --build build/release --target adstar_tests fault_tool
 #
 # A fault is a function fault_NAME: it is called once the daemon flies, with $daemon its pid, and ends by itself or is
@@ -144,5 +144,5 @@ fi
 
 if [[ $write == true ]]; then
   sed -i -e '/<!-- faults: begin -->/,/<!-- faults: end -->/{//!d}' -e "/<!-- faults: begin -->/r $work/table" \
-    service/README.md
+    service/pages/faults.md
 fi

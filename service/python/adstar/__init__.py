@@ -14,7 +14,7 @@ Conventions, everywhere in here:
 - Time is whole nanoseconds inside: t = n h. Arrays have a row an instant, the first is the start.
 
 What is computed is what ``adstar propagate`` computes, to the last bit. The propagation library is described in
-include/adstar/README.md, scenes and recordings in service/README.md.
+include/adstar/notation.md, scenes in service/scene/README.md, recordings in service/pages/recording.md.
 """
 
 from ._core import RecordingError, SceneError, __version__

@@ -213,7 +213,7 @@ class Scene:
 
 
 def load_scene(path: Union[str, "os.PathLike[str]"]) -> Scene:
-    """Reads and validates a scene (service/README.md has every key). Tables are looked up beside it.
+    """Reads and validates a scene (service/scene/README.md has every key). Tables are looked up beside it.
 
     SceneError (a ValueError): every complaint at once, a line each, with line, column and remedy.
     """

@@ -8,7 +8,7 @@ from . import _core
 
 @dataclass(frozen=True)
 class Scheme:
-    """What a scheme says of itself; its source is in include/adstar/README.md."""
+    """What a scheme says of itself; its source is in include/adstar/schemes.md."""
 
     name: str
     order: Optional[int]  #: None: closed form, its only error is round-off
