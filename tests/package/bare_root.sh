@@ -119,7 +119,8 @@ await 20 "the daemon ends" gone
 unit demo 2> "$work/resumed.log" &
 await 30 "the run goes on" grep -q 'the run goes on at step' "$work/resumed.log"
 await 30 "the daemon is on the bus" listed
-kill -INT "$(child)" "$(pgrep -x adstar)"
+kill -KILL "$(child)"  # what it leaves in memory is for the purge
+kill -INT "$(pgrep -x adstar)"
 await 20 "the daemon ends" gone
 proved "the new version goes on with the run: $(grep -o 'the run goes on at step.*' "$work/resumed.log")"
 wait

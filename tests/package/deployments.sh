@@ -144,6 +144,7 @@ proved "shard a is killed: its standby goes on, $(head -n 1 "$work/verdict")"
 start flight shard_a
 ends_with "shard_a (primary, flight)" 3
 proved "the lost one comes back by itself, and is refused: $(tail -n 1 "$work/shard_a (primary, flight).log" | cut -c 1-120)"
+rm -f "/dev/shm/adstar-$(sed -n 's/.*"run": "\([0-9a-f]*\)".*/\1/p' "$work/flight/var/shard_a/run.json")"  # it never goes on
 start flight shard_a standby
 await 30 "a new standby follows" says "shard_a (standby, flight)" "follows from step"
 proved "the other machine stands by for shard a now"
