@@ -1,0 +1,1 @@
+// Nothing: a library that precompiles a header needs a source.
