@@ -17,12 +17,15 @@ bool is_ros_character(char c) {
 
 /// One part of a topic's name, between slashes.
 bool is_ros_name(std::string_view name) {
-  return !is_digit(name.front()) && std::all_of(name.begin(), name.end(), is_ros_character);
+  return !is_digit(name.front()) && std::all_of(name.begin(), name.end(), is_ros_character) &&
+         name.find("__") == std::string_view::npos;
 }
 
 std::string as_ros_name(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !is_ros_character(c); }, '_');
+  const auto both = [](char a, char b) { return a == '_' && b == '_'; };
+  name.erase(std::unique(name.begin(), name.end(), both), name.end());
   return is_digit(name.front()) ? "sat" + name : name;
 }
 
@@ -40,7 +43,8 @@ void refuse_names(const Value& enabled, const std::vector<std::string>& names,
     enabled.refuse_as(
         fmt::format("true, with a spacecraft {}{}", in_quotes(*first),
                     count > 1 ? fmt::format(" (and {} others like it)", count - 1) : ""),
-        "names out of A-Z a-z 0-9 _ that begin with no digit: topics of ROS 2 allow no others",
+        "names out of A-Z a-z 0-9 _ that begin with no digit and have no __: topics of ROS 2 allow "
+        "no others",
         fmt::format("the name {}, or a [telemetry] spacecraft without it",
                     in_quotes(as_ros_name(*first))));
   }

@@ -42,9 +42,10 @@ TEST(SceneRos2, refuses_a_name_that_no_topic_may_have) {
   EXPECT_EQ(
       refusal(named("sat-1.a")),
       "scene.toml:7:11: ros2.enabled: got true, with a spacecraft \"sat-1.a\", expected names "
-      "out of A-Z a-z 0-9 _ that begin with no digit: topics of ROS 2 allow no others; try the "
-      "name \"sat_1_a\", or a [telemetry] spacecraft without it");
+      "out of A-Z a-z 0-9 _ that begin with no digit and have no __: topics of ROS 2 allow no "
+      "others; try the name \"sat_1_a\", or a [telemetry] spacecraft without it");
   EXPECT_NE(refusal(named("7")).find("try the name \"sat7\""), std::string::npos);
+  EXPECT_NE(refusal(named("a--b__c")).find("try the name \"a_b_c\""), std::string::npos);
   EXPECT_EQ(refusal(named("_Sat_7")), "");
   EXPECT_EQ(refusal(testing::replaced(named("sat-1"), "enabled = true", "enabled = false")), "");
 }
