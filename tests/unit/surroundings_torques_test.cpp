@@ -129,6 +129,20 @@ TEST(Aerodynamic, flow_along_an_axis_pulls_at_the_middle_alone) {
   EXPECT_LT(norm(model.at(0, {}) - force * V{-0.2, 0, 0.1}), 1e-14 * force);
 }
 
+/// Its arm is across its normal: what comes straight at it has the whole arm.
+Facets<double> plate_on_an_arm(double specular = 0, double diffuse = 0) {
+  return make_facets<double>({{2, {1, 0, 0}, {0, 0, 0.5}, 2.2, specular, diffuse}});
+}
+
+TEST(Aerodynamic, of_a_plate_against_the_earths_turn_comes_to_its_bound) {
+  // An equatorial circle flown westward; the percent is for where the layers of the air meet.
+  auto model = in_air(make_orbit<double>({6.7e6, 0, M_PI, 0, 0, 0}));
+  model.facets = plate_on_an_arm();
+  const double closest = closest_to_bound(model, 8);
+  EXPECT_LE(closest, 1);
+  EXPECT_GT(closest, 0.95);
+}
+
 TEST(Aerodynamic, stays_within_its_bound) {
   for (const Orbit<double>& orbit :
        {low_orbit(), Orbit<double>(make_orbit<double>({8e6, 0.18, 1.7, 0.4, 0.7, 0.1})),
@@ -205,6 +219,16 @@ TEST(SolarPressure, is_what_the_shadow_leaves) {
   EXPECT_GT(dark, 3000);
   EXPECT_GT(partly, 20);
   EXPECT_GT(bright, 6000);
+}
+
+TEST(SolarPressure, of_a_plate_in_january_comes_to_its_bound) {
+  auto model = in_sun();
+  model.sun.days_since_J2000_at_start = 9500;  // 4 January 2026: the Sun is nearest
+  model.shadow = Shadow::none;
+  model.facets = plate_on_an_arm(0.3, 0.2);
+  const double closest = closest_to_bound(model, 9);
+  EXPECT_LE(closest, 1);
+  EXPECT_GT(closest, 0.95);
 }
 
 TEST(SolarPressure, stays_within_its_bound) {
