@@ -1,4 +1,4 @@
-# ctest -L style: formatting, and Doxygen's warnings. The targets `tidy`: clang-tidy (minutes), and `doc`.
+# ctest -L style: formatting, links of pages, and Doxygen's warnings. The targets `tidy`: clang-tidy (minutes), and `doc`.
 
 find_program(CLANG_FORMAT NAMES clang-format-14 clang-format)
 if(CLANG_FORMAT)
@@ -7,6 +7,10 @@ if(CLANG_FORMAT)
             -P ${PROJECT_SOURCE_DIR}/tests/support/check_format.cmake)
   set_tests_properties(style_formatting PROPERTIES LABELS style TIMEOUT 120)
 endif()
+
+add_test(NAME style_links
+  COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -P ${PROJECT_SOURCE_DIR}/tests/support/check_links.cmake)
+set_tests_properties(style_links PROPERTIES LABELS style TIMEOUT 60)
 
 # The tests themselves are left out: their dependencies' templates take clang-tidy a minute each. bits_main.cpp
 # brings in every header of the core.
