@@ -92,6 +92,8 @@ std::string timing_json(const adstar_StepTiming& t) {
   for (const Part& part : kParts) {
     const adstar_PhaseTiming& phase = t.*part.timing;
     line[part.key] = json_of(phase.took);
+    line[part.key]["sum_ns"] = phase.sum_ns;
+    line[part.key]["octaves"] = phase.octaves;
     line[part.key]["budget_ns"] = phase.budget_ns;
     line[part.key]["over_budget"] = phase.over_budget;
   }

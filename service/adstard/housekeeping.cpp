@@ -86,7 +86,9 @@ runtime::TimingRecord Housekeeping::timing(bool stopped) const {
   const std::int64_t budgets[runtime::kPhases] = {budget.wake_up_ns, budget.commands_ns,
                                                   budget.step_ns, budget.hand_over_ns};
   for (std::size_t i = 0; i < runtime::kPhases; ++i) {
-    timing.phases[i] = {report.phases[i].quantiles(), budgets[i], read(report.over_budget[i])};
+    const runtime::Histogram& took = report.phases[i];
+    timing.phases[i] = {took.quantiles(), took.sum_ns(), took.octaves(), budgets[i],
+                        read(report.over_budget[i])};
   }
   timing.tick_body = report.tick_body.quantiles();
   timing.late_beats = read(report.late_beats);

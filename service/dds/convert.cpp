@@ -75,7 +75,10 @@ adstar_Quantiles quantiles(const runtime::QuantilesRecord& q) noexcept {
 
 adstar_PhaseTiming phase(const runtime::TimingRecord& record, runtime::Phase which) noexcept {
   const runtime::PhaseRecord& p = record.phases[static_cast<std::size_t>(which)];
-  return {quantiles(p.took), p.budget_ns, p.over_budget};
+  adstar_PhaseTiming timing{quantiles(p.took), p.sum_ns, {}, p.budget_ns, p.over_budget};
+  static_assert(std::size(decltype(timing.octaves){}) == runtime::kOctaves);
+  std::copy(p.octaves.begin(), p.octaves.end(), timing.octaves);
+  return timing;
 }
 
 // Read as a number: the value may lie outside the enumeration.

@@ -2,6 +2,7 @@
 // Distribution of times in fixed memory: 32 buckets an octave (the idea of HdrHistogram, Tene
 // 2012), so a quantile is known to 3 %. One thread records, any thread reads.
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -18,9 +19,20 @@ class Histogram {
     const auto value = static_cast<std::uint64_t>(ns < 0 ? 0 : ns);
     increment(buckets_[bucket_of(value)]);
     increment(count_);
+    sum_.store(sum_.load(std::memory_order_relaxed) + value, std::memory_order_relaxed);
     if (value > maximum_.load(std::memory_order_relaxed)) {
       maximum_.store(value, std::memory_order_relaxed);
     }
+  }
+
+  std::uint64_t sum_ns() const noexcept { return sum_.load(std::memory_order_relaxed); }
+
+  OctaveCounts octaves() const noexcept {
+    OctaveCounts counts{};
+    for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
+      counts[octave_of(top_of(bucket))] += buckets_[bucket].load(std::memory_order_relaxed);
+    }
+    return counts;
   }
 
   QuantilesRecord quantiles() const noexcept {
@@ -61,6 +73,14 @@ class Histogram {
     return first + ((std::uint64_t{1} << octave) - 1);
   }
 
+  static std::size_t octave_of(std::uint64_t value) noexcept {
+    constexpr int kFirst = 8;  // bits of the first octave's times
+    const int bits = std::bit_width(value);
+    return bits <= kFirst
+               ? 0
+               : std::min<std::size_t>(static_cast<std::size_t>(bits - kFirst), kOctaves - 1);
+  }
+
   std::int64_t quantile(const QuantilesRecord& known, double fraction) const noexcept {
     const double wanted = fraction * static_cast<double>(known.count);
     std::uint64_t seen = 0;
@@ -76,6 +96,7 @@ class Histogram {
 
   std::atomic<std::uint64_t> buckets_[kBuckets]{};
   std::atomic<std::uint64_t> count_{0};
+  std::atomic<std::uint64_t> sum_{0};
   std::atomic<std::uint64_t> maximum_{0};
 };
 

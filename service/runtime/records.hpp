@@ -232,8 +232,14 @@ struct QuantilesRecord {
 enum class Phase : std::uint32_t { wake_up, commands, step, hand_over };
 inline constexpr std::size_t kPhases = 4;
 
+/// How often a time fell into each octave: below 2^8 ns, then [2^(7+i), 2^(8+i)) ns, and 2^30 ns or more.
+inline constexpr std::size_t kOctaves = 24;
+using OctaveCounts = std::array<std::uint64_t, kOctaves>;
+
 struct PhaseRecord {
   QuantilesRecord took;
+  std::uint64_t sum_ns = 0;
+  OctaveCounts octaves{};
   std::int64_t budget_ns = 0;  ///< 0: none
   std::uint64_t over_budget = 0;
 };

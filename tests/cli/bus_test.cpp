@@ -234,9 +234,9 @@ adstar_StepTiming some_timing() {
   dds::set_text(timing.service, "fake");
   timing.step = 12'345;
   timing.time_ns = 12'345'000'000;
-  timing.wake_up_lateness = {{12'345, 3'100, 9'800, 33'000, 120'400}, 200'000, 0};
+  timing.wake_up_lateness = {{12'345, 3'100, 9'800, 33'000, 120'400}, 40'000'000, {}, 200'000, 0};
   timing.command_phase = {{12'345, 100, 300, 2'100, 8'000}, 0, 0};
-  timing.step_phase = {{12'345, 400, 700, 5'000, 51'000}, 50'000, 1};
+  timing.step_phase = {{12'345, 400, 700, 5'000, 51'000}, 6'000'000, {0, 12'345}, 50'000, 1};
   timing.hand_over_phase = {{12'345, 90, 1'900, 25'000, 60'000}, 0, 0};
   timing.tick_body = {12'345, 600, 2'900, 27'000, 61'000};
   timing.late_beats = 5;

@@ -90,6 +90,8 @@ def main():
             assert until("daemon that is up", lambda: value('adstar_up{service="scraped"}')) == 1
             assert until("steps", lambda: value("adstar_steps_total")) > 0
             assert until("lateness", lambda: value('adstar_phase_seconds{phase="wake_up",quantile="0.99"}')) > 0
+            wake_up = 'adstar_phase_duration_seconds_bucket{phase="wake_up"}'
+            assert until("histogram", lambda: value(f"histogram_quantile(0.99, {wake_up})")) > 0
             rules = until("alerts", lambda: asked(own, "/api/v1/rules")["groups"])[0]["rules"]
             bad = [rule["name"] for rule in rules if rule["health"] == "err"]
             assert not bad, f"alerts that do not work: {bad}"

@@ -140,5 +140,23 @@ TEST(Histogram, may_be_read_while_it_records) {
   expect_close(histogram->quantiles().p50_ns, 499);
 }
 
+TEST(Histogram, counts_octaves_at_their_edges_and_keeps_the_sum) {
+  const auto histogram = std::make_unique<Histogram>();
+  const std::int64_t top = std::int64_t{1} << 30;
+  for (const std::int64_t ns :
+       {std::int64_t{-5}, std::int64_t{0}, std::int64_t{255}, std::int64_t{256}, std::int64_t{511},
+        std::int64_t{512}, top - 1, top, 8 * top}) {
+    histogram->record(ns);
+  }
+  OctaveCounts expected{};
+  expected[0] = 3;
+  expected[1] = 2;
+  expected[2] = 1;
+  expected[22] = 1;
+  expected[23] = 2;
+  EXPECT_EQ(histogram->octaves(), expected);
+  EXPECT_EQ(histogram->sum_ns(), static_cast<std::uint64_t>(255 + 256 + 511 + 512 - 1 + 10 * top));
+}
+
 }  // namespace
 }  // namespace adstar::runtime

@@ -206,6 +206,23 @@ class Writer {
                out.add(phase, fmt::format("{}", q.count), "_count");
              }
            });
+    metric("adstar_phase_duration_seconds", "histogram",
+           "The same, counted in octaves from 256 ns to a second.",
+           [](Metric& out, const std::string& labels, const ServiceRecord& r) {
+             for (std::size_t i = 0; r.timing && i < kPhases.size(); ++i) {
+               const adstar_PhaseTiming& p = (*r.timing).*kPhases[i].timing;
+               const std::string phase = fmt::format("{},phase=\"{}\"", labels, kPhases[i].name);
+               std::uint64_t below = 0;
+               for (std::size_t k = 0; k < std::size(p.octaves); ++k) {
+                 below += p.octaves[k];
+                 const bool last = k + 1 == std::size(p.octaves);
+                 const std::string le = last ? "+Inf" : number(seconds(std::int64_t{1} << (8 + k)));
+                 out.add(phase + ",le=\"" + le + "\"", fmt::format("{}", below), "_bucket");
+               }
+               out.add(phase, number(static_cast<double>(p.sum_ns) / 1e9), "_sum");
+               out.add(phase, fmt::format("{}", below), "_count");
+             }
+           });
     of_each_phase("adstar_phase_budget_seconds", "gauge",
                   "Budget of a part of the beat; 0: it has none.",
                   [](const adstar_PhaseTiming& p) { return number(seconds(p.budget_ns)); });

@@ -1,4 +1,4 @@
-// Quantiles of the parts of a beat against their budgets: a picture on a logarithmic axis, and the numbers.
+// The parts of a beat against their budgets: how often each took how long, with its quantiles, on a logarithmic axis; and the numbers.
 
 import { make, say } from "./dom";
 import { counted, microseconds } from "./format";
@@ -55,7 +55,7 @@ export class TimingChart {
   private readonly note = make("p", { class: "quiet" });
 
   constructor(place: HTMLElement) {
-    this.picture = svg("svg", { height: kHeight, role: "img", "aria-label": "Quantiles of each part of the beat against its budget; the table has the numbers" });
+    this.picture = svg("svg", { height: kHeight, role: "img", "aria-label": "How often each part of the beat took how long, and its quantiles, against its budget; the table has the numbers" });
     this.body = make("tbody");
     const heads = ["part of a beat [µs]", ...kQuantiles.map(([name]) => name), "budget", "over"];
     const table = make("table", { class: "numbers" },
@@ -69,6 +69,9 @@ export class TimingChart {
     const icon = svg("svg", { viewBox: "-6 -6 12 12", width: 12, height: 12, "aria-hidden": "true" });
     icon.append(svg("path", { d: "M0,-6V6", class: "budget" }));
     legend.append(make("li", {}, icon, document.createTextNode(" budget")));
+    const bar = svg("svg", { viewBox: "-6 -6 12 12", width: 12, height: 12, "aria-hidden": "true" });
+    bar.append(svg("path", { d: "M-5,6V-2H0V-6H5V6Z", class: "often" }));
+    legend.append(make("li", {}, bar, document.createTextNode(" beats, logarithmic")));
     place.append(this.picture, legend, make("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": "Timing in numbers" }, table), this.note); // prettier-ignore
     new ResizeObserver(() => {
       this.width = Math.max(260, Math.min(640, place.clientWidth));
@@ -117,6 +120,7 @@ export class TimingChart {
       if (phase.count === 0) {
         return;
       }
+      parts.push(svg("path", { d: columns(phase.octaves, x, y + kRow / 2 - 2), class: "often" }));
       parts.push(svg("path", { d: `M${x(phase.p50_ns)},${y}H${x(phase.max_ns)}`, class: "range" }));
       if (phase.budget_ns > 0) {
         const over = phase.p99_9_ns > phase.budget_ns ? " exceeded" : "";
@@ -128,6 +132,17 @@ export class TimingChart {
     });
     this.picture.replaceChildren(...parts);
   }
+}
+
+/// A column an octave, standing on `foot`: as high as the logarithm of how many beats it has, so that a single late one is seen.
+function columns(octaves: number[], x: (ns: number) => number, foot: number): string {
+  const height = (count: number) => ((kRow - 4) * Math.log10(1 + count)) / Math.log10(1 + Math.max(...octaves));
+  return octaves
+    .map((count, i) => {
+      const [from, to] = [x(i === 0 ? kLeast_ns : 2 ** (7 + i)), x(2 ** (8 + i))];
+      return count === 0 ? "" : `M${from},${foot}v${-height(count)}H${Math.max(to, from + 2)}V${foot}Z`;
+    })
+    .join("");
 }
 
 function row(name: string, phase: Phase): HTMLElement {
