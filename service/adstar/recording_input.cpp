@@ -1,9 +1,14 @@
 #include "service/adstar/recording_input.hpp"
 
+#include <memory>
+#include <optional>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "service/adstar/failure.hpp"
+#include "service/adstar/progress_bar.hpp"
+#include "service/adstar/stop_signal.hpp"
 #include "service/bag/sqlite.hpp"
 #include "service/report/numbers.hpp"
 #include "service/samples/recorded_topics.hpp"
@@ -15,6 +20,29 @@ void add_recording(CLI::App& verb, std::string& directory) {
       ->type_name("DIR")
       ->required();
 }
+
+namespace {
+
+/// A bar for each pass over it; Ctrl-C ends the work.
+void show_progress(bag::Recording& recording) {
+  static constexpr std::uint64_t kWhole = 1'000'000;
+  catch_stop_signals();
+  const auto bar = std::make_shared<std::optional<ProgressBar>>();
+  recording.watch([bar](double part) {
+    if (stop_requested()) {
+      throw Failure(kFailed, "interrupted; no output file was written");
+    }
+    if (part == 0) {
+      bar->emplace(kWhole);
+    } else if (part == 1) {
+      bar->reset();
+    } else {
+      (*bar)->show(static_cast<std::uint64_t>(part * kWhole));
+    }
+  });
+}
+
+}  // namespace
 
 bag::Recording open_recording(const std::string& directory, const char* verb) {
   try {
@@ -35,6 +63,7 @@ bag::Recording open_recording(const std::string& directory, const char* verb) {
                                     : "cannot be written there, which does not matter here");
         break;
     }
+    show_progress(recording);
     return recording;
   } catch (const bag::Error& error) {
     throw Failure(kUsage, error.what());

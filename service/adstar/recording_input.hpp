@@ -15,7 +15,7 @@ namespace adstar::cli {
 /// The positional RECORDING.
 void add_recording(CLI::App& verb, std::string& directory);
 
-/// Opens it, says when nobody has ended it, and writes its metadata.yaml where a killed recorder could not. Throws Failure.
+/// Opens it, with a bar on stderr where reading lasts, says when nobody has ended it, and writes its metadata.yaml where a killed recorder could not. Throws Failure.
 bag::Recording open_recording(const std::string& directory, const char* verb);
 
 /// Throws Failure that says what helps when nothing in it is attitude or momentum of a single spacecraft.

@@ -77,11 +77,18 @@ Recording::Recording(const fs::path& directory)
 
 void Recording::for_each(const std::vector<std::string>& topics,
                          const std::function<void(const Message&)>& use) const {
-  for (const fs::path& file : files_) {
-    const Database database(file, Database::Mode::open);
+  constexpr std::uint64_t kBetweenLooks = 4096;  // rows
+  const auto share = 1 / static_cast<double>(files_.size());
+  std::uint64_t rows_read = 0;
+  watcher_(0);
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    const Database database(files_[i], Database::Mode::open);
     if (!is_laid_out(database)) {
       continue;
     }
+    Statement last = database.prepare("SELECT MAX(id) FROM messages");
+    last.step();
+    const auto most = static_cast<double>(last.number(0));
     std::map<std::int64_t, std::string> names;
     std::string wanted;
     Statement rows = database.prepare("SELECT id, name FROM topics");
@@ -92,13 +99,18 @@ void Recording::for_each(const std::vector<std::string>& topics,
       }
     }
     Statement messages = database.prepare(
-        fmt::format("SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({}) "
+        fmt::format("SELECT topic_id, timestamp, data, id FROM messages WHERE topic_id IN ({}) "
                     "ORDER BY id",
                     wanted));
     while (messages.step()) {
       use({names.at(messages.number(0)), messages.number(1), messages.bytes(2)});
+      if (++rows_read % kBetweenLooks == 0) {
+        const double of_file = static_cast<double>(messages.number(3)) / most;
+        watcher_(share * (static_cast<double>(i) + std::min(of_file, 1.0)));
+      }
     }
   }
+  watcher_(1);
 }
 
 Metadata Recording::count() const {

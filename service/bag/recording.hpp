@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "service/bag/metadata.hpp"
@@ -25,6 +26,10 @@ class Recording {
  public:
   /// Throws Error when there is no recording.
   explicit Recording(const std::filesystem::path& directory);
+
+  /// From now on for_each() tells which part of the files it has been through: 0 first, 1 last, and now and then
+  /// in between. What the watcher throws ends it.
+  void watch(std::function<void(double part)> watcher) { watcher_ = std::move(watcher); }
 
   /// Of the topics named, those that are in it; throws Error on a file that cannot be read.
   void for_each(const std::vector<std::string>& topics,
@@ -46,6 +51,7 @@ class Recording {
  private:
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> files_;
+  std::function<void(double)> watcher_ = [](double /*part*/) {};
 };
 
 }  // namespace adstar::bag

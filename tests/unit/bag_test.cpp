@@ -95,6 +95,31 @@ TEST_F(Bags, what_was_written_is_read_in_its_order_though_the_clock_was_set_back
   }
 }
 
+TEST_F(Bags, whoever_reads_is_told_how_far_they_are_over_all_files) {
+  RollingWriter out = writer({{}, 10 * kSecond});
+  for (int i = 0; i < 20'000; ++i) {
+    out.add(i % 2 == 0 ? 0 : 1, i * kSecond / 1000, bytes(3, i));
+  }
+  out.finish();
+  Recording recording(home_ / "bag");
+  std::vector<double> parts;
+  recording.watch([&](double part) { parts.push_back(part); });
+  recording.for_each({"/a", "/b"}, [](const Message&) {});
+  ASSERT_EQ(parts.size(), 6U) << "each 4,096 rows";
+  EXPECT_EQ(parts.front(), 0);
+  EXPECT_NEAR(parts[1], 4096.0 / 20'000, 1e-3);
+  EXPECT_NEAR(parts[3], 3 * 4096.0 / 20'000, 1e-3);
+  EXPECT_EQ(parts.back(), 1);
+  recording.watch([](double part) {
+    if (part > 0) {
+      throw Error("enough");
+    }
+  });
+  int read_rows = 0;
+  EXPECT_THROW(recording.for_each({"/a"}, [&](const Message&) { ++read_rows; }), Error);
+  EXPECT_EQ(read_rows, 4096);
+}
+
 TEST_F(Bags, a_file_spans_no_longer_than_it_may) {
   RollingWriter bag = writer({.max_bytes = {}, .max_duration_ns = 3 * kSecond});
   for (int i = 0; i < 7; ++i) {
