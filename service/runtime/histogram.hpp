@@ -75,7 +75,7 @@ class Histogram {
 
   static std::size_t octave_of(std::uint64_t value) noexcept {
     constexpr int kFirst = 8;  // bits of the first octave's times
-    const int bits = std::bit_width(value);
+    const auto bits = static_cast<int>(std::bit_width(value));
     return bits <= kFirst
                ? 0
                : std::min<std::size_t>(static_cast<std::size_t>(bits - kFirst), kOctaves - 1);
