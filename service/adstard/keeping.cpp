@@ -56,7 +56,8 @@ void begin_run(Plan& plan, const Options& options) {
   }
   if (!plan.run && !directory.empty()) {
     plan.run = run::RunDirectory::create(
-        directory, {random_word(), plan.text, plan.file, options.service, options.duration});
+        directory,
+        {random_word(), plan.text, plan.file, options.service, options.duration, options.standby});
   }
 }
 
@@ -95,8 +96,14 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
 
 void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint,
                     run::Flight& flight, runtime::VerdictRing& verdicts) {
-  hot_ = run::HotJournalFile::open(run_);
-  if (!plan.run->take_good_end() && !hot_) {
+  if (plan.run->facts().standby && plan.run->checkpoints().empty()) {
+    throw run::RunError(fmt::format(
+        "{} is a standby's that had no state yet: there is nothing to go on with; go on with the "
+        "run of its primary, or begin another standby",
+        plan.run->path().string()));
+  }
+  hot_ = what_was_in_memory(accept_loss);
+  if (!hot_ && !plan.run->ended_well()) {
     spdlog::warn(
         "what the run had in memory is gone (the machine was started anew?): beats and commands "
         "since the last sync are lost, and nothing before");
@@ -110,10 +117,24 @@ void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprin
     hot_.reset();  // it may hold what comes after the gap
     begins_with_checkpoint_ = true;
   }
+  plan.run->forget_good_end();
   next_number_ = resumed.records.next_number;
   last_in_files_ = resumed.records.last_in_files;
   spdlog::info("the run goes on at step {}: checkpoint of step {}, {} commands since",
                flight.at.step, resumed.checkpoint.step, resumed.records.heard.size());
+}
+
+std::optional<run::HotJournalFile> Keeping::what_was_in_memory(bool accept_loss) const {
+  try {
+    return run::HotJournalFile::open(run_);
+  } catch (const run::RunError& error) {
+    if (!accept_loss) {
+      throw run::RunError(fmt::format(
+          "{}; go on with the version that flew it. --accept-loss goes on without", error.what()));
+    }
+    spdlog::warn("{}; the run goes on without", error.what());
+    return std::nullopt;
+  }
 }
 
 void Keeping::begin_at(const Plan& plan, std::uint64_t fingerprint, const run::Checkpoint& state,
@@ -135,13 +156,13 @@ void Keeping::finish(const runtime::Tick& tick) {
   const runtime::Instant at{tick.report().run.load(std::memory_order_relaxed),
                             tick.report().step.load(std::memory_order_relaxed)};
   if (recorder_->finish(tick.fleet(), at) && hot_) {
-    run::HotJournalFile::remove(run_);
     try {
       plan_.run->note_good_end();
     } catch (const run::RunError& error) {
       spdlog::warn("{}; the next start will say that memory is gone, which it is not",
                    error.what());
     }
+    run::HotJournalFile::remove(run_);
   }
 }
 

@@ -46,6 +46,8 @@ class Keeping {
  private:
   void go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprint, run::Flight& flight,
              runtime::VerdictRing& verdicts);
+  /// Throws RunError when it cannot be read, unless `accept_loss`.
+  std::optional<run::HotJournalFile> what_was_in_memory(bool accept_loss) const;
   void begin_at(const Plan& plan, std::uint64_t fingerprint, const run::Checkpoint& state,
                 run::Flight& flight);
 

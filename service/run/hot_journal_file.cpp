@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "service/run/files.hpp"
+
 namespace adstar::run {
 namespace {
 
@@ -52,15 +54,26 @@ std::optional<HotJournalFile> HotJournalFile::open(std::uint64_t run) {
     return std::nullopt;
   }
   struct stat info {};
-  const bool whole = fstat(fd, &info) == 0 && info.st_size == sizeof(runtime::HotJournal);
+  const bool known = fstat(fd, &info) == 0;
+  const bool whole = known && info.st_size == sizeof(runtime::HotJournal);
   void* const memory = whole ? map(fd) : nullptr;
   close(fd);
+  if (known && info.st_size == 0) {
+    return std::nullopt;  // its daemon fell while it made it
+  }
+  const RunError of_another_version(
+      fmt::format("/dev/shm{} holds what this run had in memory, and is of another version of "
+                  "adstar",
+                  name_of(run)));
   if (memory == nullptr) {
-    return std::nullopt;
+    throw of_another_version;
   }
   HotJournalFile file(static_cast<runtime::HotJournal*>(memory));
-  if (file->layout != runtime::kHotJournalLayout || file->run != run) {
+  if (file->layout == 0 && file->run == 0) {
     return std::nullopt;
+  }
+  if (file->layout != runtime::kHotJournalLayout || file->run != run) {
+    throw of_another_version;
   }
   return file;
 }

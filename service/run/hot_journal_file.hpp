@@ -14,7 +14,8 @@ class HotJournalFile {
  public:
   /// Makes a new one, in place of one of that name. Throws std::system_error.
   static HotJournalFile create(std::uint64_t run);
-  /// The one that a run left behind; nothing when there is none that fits.
+  /// The one that a run left behind; nothing when there is none, or one in which nothing was written yet. Throws RunError
+  /// when it is of another version of adstar.
   static std::optional<HotJournalFile> open(std::uint64_t run);
   /// Forgets it: the run ended in good order.
   static void remove(std::uint64_t run) noexcept;

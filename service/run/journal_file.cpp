@@ -59,14 +59,20 @@ void JournalFile::append(std::span<const runtime::JournalRecord> records) {
 JournalText journal_from(std::span<const std::byte> bytes) {
   JournalText text;
   const auto header = take<Header>(bytes);
-  if (!header || header->magic != kMagic) {
+  if (!header) {
     text.damage = "is no journal, or was cut off at its beginning";
+    return text;
+  }
+  text.unreadable = true;
+  if (header->magic != kMagic) {
+    text.damage = "is no journal, or was changed at its beginning";
     return text;
   }
   if (header->format != kFormat || header->sum != sum_of(header->run)) {
     text.damage = "is of another version of adstar, or was changed at its beginning";
     return text;
   }
+  text.unreadable = false;
   text.run = header->run;
   while (!bytes.empty()) {
     const auto entry = take<Entry>(bytes);

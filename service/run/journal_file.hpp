@@ -32,6 +32,7 @@ struct JournalText {
   std::uint64_t run = 0;
   std::vector<runtime::JournalRecord> records;  ///< up to the first that is not whole
   std::string damage;                           ///< what is wrong with the rest; empty: nothing
+  bool unreadable = false;                      ///< nothing is known of what it holds
 };
 
 /// Never throws: what can be believed of the bytes.

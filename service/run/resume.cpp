@@ -83,6 +83,20 @@ std::uint64_t last_known_step(const RunRecords& records, const runtime::HotJourn
   return step;
 }
 
+/// What may be missing though no record says so: files of another version, for one, or all of them changed.
+std::string unknown_part(const RunDirectory& directory, bool has_checkpoint,
+                         const RunRecords& records) {
+  if (!records.unreadable.empty()) {
+    return fmt::format("{} cannot be read", records.unreadable);
+  }
+  const std::vector<Numbered> journals = directory.journals();
+  const bool from_the_start = !journals.empty() && journals.front().number == 1;
+  return !has_checkpoint && !directory.checkpoints().empty() && !from_the_start
+             ? "none of its checkpoints can be read, and its journal does not reach back to its "
+               "beginning"
+             : "";
+}
+
 }  // namespace
 
 RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal* hot,
@@ -91,6 +105,11 @@ RunRecords read_records(const RunDirectory& directory, const runtime::HotJournal
   all.next_number = from;
   for (const Numbered& file : directory.journals()) {
     const JournalText text = journal_from(read_bytes(file.path));
+    if (!text.unreadable) {
+      all.unreadable.clear();  // the numbers in later files tell what is missing
+    } else if (all.unreadable.empty()) {
+      all.unreadable = file.path.string();
+    }
     if (!text.damage.empty()) {
       all.damage.push_back(file.path.string() + " " + text.damage);
     } else if (text.run != directory.facts().run) {
@@ -170,7 +189,7 @@ Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
   const std::optional<Checkpoint> checkpoint =
       newest_checkpoint(directory, scene, fingerprint, resumed.notes);
   for (std::string& note : resumed.notes) {
-    note += "; an older one is used";
+    note += checkpoint ? "; an older one is used" : "";
   }
   if (checkpoint) {
     set_to(flight, *checkpoint);
@@ -178,11 +197,14 @@ Resumed resume(const RunDirectory& directory, const runtime::HotJournal* hot,
   resumed.checkpoint = flight.at;
   resumed.records = read_records(directory, hot, checkpoint ? checkpoint->next_number : 1);
   const RunRecords& records = resumed.records;
+  if (records.gap.empty()) {
+    resumed.records.gap = unknown_part(directory, checkpoint.has_value(), records);
+  }
   resumed.notes.insert(resumed.notes.end(), records.damage.begin(), records.damage.end());
   if (!records.gap.empty()) {
     std::string what = fmt::format("{}: {}", directory.path().string(), records.gap);
-    for (const std::string& damage : records.damage) {
-      what += "; " + damage;
+    for (const std::string& note : resumed.notes) {
+      what += "; " + note;
     }
     if (!accept_loss) {
       throw RunError(fmt::format(

@@ -23,7 +23,8 @@ struct RunRecords {
   std::uint64_t highest = 0;                    ///< of all numbers, those after a gap too
   std::uint64_t last_in_files = 0;  ///< number of the last that needs no memory to survive
   std::vector<std::string> damage;  ///< a sentence for each file that is not whole
-  std::string gap;                  ///< what is missing before later records; empty: nothing
+  std::string unreadable;  ///< the first of those at its end of which nothing is known; empty: none
+  std::string gap;         ///< what is missing, or may be; empty: nothing
 };
 
 /// From record `from` on. `hot` may be null.

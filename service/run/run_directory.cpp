@@ -55,6 +55,7 @@ RunFacts read_facts(const fs::path& path) {
     facts.scene_file = json.at("scene_file").get<std::string>();
     facts.service = json.at("service");
     facts.duration = json.at("duration");
+    facts.standby = json.value("standby", false);
     facts.scene_text = text_of(read_bytes(path / "scene.toml"));
     return facts;
   } catch (const nlohmann::json::exception& error) {
@@ -81,7 +82,8 @@ RunDirectory RunDirectory::create(const fs::path& path, const RunFacts& facts) {
   const nlohmann::json json{{"run", fmt::format("{:016x}", facts.run)},
                             {"scene_file", fs::absolute(facts.scene_file).string()},
                             {"service", facts.service},
-                            {"duration", facts.duration}};
+                            {"duration", facts.duration},
+                            {"standby", facts.standby}};
   replace_file(path / "scene.toml", bytes_of(facts.scene_text));
   replace_file(path / "run.json", bytes_of(json.dump(2) + "\n"));
   return directory;
@@ -102,10 +104,11 @@ RunDirectory RunDirectory::open(const fs::path& path, Use use) {
 
 void RunDirectory::note_good_end() const { replace_file(path_ / "ended", {}); }
 
-bool RunDirectory::take_good_end() const {
-  const bool noted = fs::remove(path_ / "ended");
+bool RunDirectory::ended_well() const { return fs::exists(path_ / "ended"); }
+
+void RunDirectory::forget_good_end() const {
+  fs::remove(path_ / "ended");
   File(path_, O_RDONLY | O_DIRECTORY).sync();
-  return noted;
 }
 
 void RunDirectory::hold() {

@@ -23,6 +23,7 @@ struct RunFacts {
   std::string scene_text;
   std::filesystem::path scene_file;  ///< where it was read: its tables are looked up beside it
   std::string service, duration;     ///< what the command line laid over it; empty: nothing
+  bool standby = false;  ///< begun by a standby: it has its first state from its primary
 };
 
 struct Numbered {
@@ -42,8 +43,8 @@ class RunDirectory {
   const std::filesystem::path& path() const { return path_; }
 
   void note_good_end() const;
-  /// Whether the last daemon noted one; it is forgotten.
-  bool take_good_end() const;
+  bool ended_well() const;
+  void forget_good_end() const;
 
   std::vector<Numbered> checkpoints() const;  ///< newest first
   std::vector<Numbered> journals() const;     ///< oldest first

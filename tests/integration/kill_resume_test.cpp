@@ -3,11 +3,14 @@
 // break, finds the same bits. ADSTAR_KILLS sets how often (target kill_resume: 100).
 
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "service/run/hot_journal_file.hpp"
+#include "service/run/run_directory.hpp"
 #include "tests/integration/daemon_harness.hpp"
 #include "tests/support/process.hpp"
 
@@ -117,6 +120,44 @@ TEST(KillResume, a_run_that_ended_goes_on_where_it_ended) {
   EXPECT_NE(daemon->log().find(fmt::format("the run goes on at step {}", stopped_at)),
             std::string::npos)
       << daemon->log();
+  EXPECT_EQ(daemon->stop(), 0);
+}
+
+/// A machine that is started anew forgets what was in memory; a run that ended in good order had nothing there.
+TEST(KillResume, says_that_memory_is_gone_only_when_it_is) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const std::filesystem::path run = home.path() / "run";
+  const auto flies = [&] {
+    GroundStation ground(corner);
+    return ground.until([&] { return ground.momentum.contains("sat1"); });
+  };
+  const auto says_gone = [](const Daemon& daemon) {
+    return daemon.log().find("what the run had in memory is gone") != std::string::npos;
+  };
+  {
+    Daemon daemon(kept_scene(corner, run));
+    ASSERT_TRUE(flies()) << daemon.log();
+    ASSERT_EQ(daemon.stop(), 0);
+  }
+  // A start that is refused changes nothing: the scene is not that of the checkpoint for a while.
+  const auto scene = run / "scene.toml";
+  const auto length = std::filesystem::file_size(scene);
+  std::ofstream(scene, std::ios::app) << "# another text\n";
+  EXPECT_EQ(Daemon::resuming(run)->exit_code(), 3);
+  std::filesystem::resize_file(scene, length);
+  {
+    const auto daemon = Daemon::resuming(run);
+    ASSERT_TRUE(flies()) << daemon->log();
+    EXPECT_FALSE(says_gone(*daemon)) << daemon->log();
+    daemon->signal(SIGKILL);
+    EXPECT_EQ(daemon->exit_code(), -SIGKILL);
+  }
+  run::HotJournalFile::remove(
+      run::RunDirectory::open(run, run::RunDirectory::Use::look).facts().run);
+  const auto daemon = Daemon::resuming(run);
+  ASSERT_TRUE(flies()) << daemon->log();
+  EXPECT_TRUE(says_gone(*daemon)) << daemon->log();
   EXPECT_EQ(daemon->stop(), 0);
 }
 

@@ -127,6 +127,97 @@ TEST_F(KilledRun, goes_back_to_the_scene_when_no_checkpoint_is_whole) {
   expect_same(*flight, 9, 120);
 }
 
+/// The number of the format stands behind eight bytes that say what the file is.
+constexpr std::int64_t kFormat = 8;
+
+TEST_F(KilledRun, that_another_version_wrote_is_refused_and_left_as_it_is) {
+  std::optional<RecordedFlight> flight(std::in_place, 9, path_, run_);
+  for (const std::uint64_t step : {50U, 100U, 150U, 200U, 250U}) {
+    flight->run_to(step);
+    flight->checkpoint();
+  }
+  flight.reset();
+  HotJournalFile::remove(run_);
+  const auto files = [&] {
+    const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
+    std::vector<fs::path> all;
+    for (const Numbered& file : directory.checkpoints()) {
+      all.push_back(file.path);
+    }
+    for (const Numbered& file : directory.journals()) {
+      all.push_back(file.path);
+    }
+    return all;
+  };
+  const std::vector<fs::path> before = files();
+  ASSERT_FALSE(fs::exists(path_ / "journal-000001.bin")) << "it could be flown from its beginning";
+  const auto expect_refusal = [&](const std::string& words) {
+    try {
+      flight.emplace(9, path_);
+      ADD_FAILURE() << "it went on at step " << flight->step();
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--accept-loss"), std::string::npos);
+    }
+    EXPECT_EQ(files(), before);
+  };
+  for (const fs::path& file : before) {
+    if (file.filename().string().starts_with("checkpoint-")) {
+      flip_a_bit(file, kFormat);
+    }
+  }
+  expect_refusal("is a checkpoint of another format");
+  for (const fs::path& file : before) {
+    if (file.filename().string().starts_with("journal-")) {
+      flip_a_bit(file, kFormat);
+    }
+  }
+  expect_refusal("cannot be read");
+  flight.emplace(9, path_, true);
+  EXPECT_EQ(flight->step(), 0U) << "all is lost, and was accepted";
+}
+
+TEST_F(KilledRun, refuses_to_begin_anew_where_nothing_can_be_read) {
+  std::optional<RecordedFlight> flight(std::in_place, 9, path_, run_);
+  flight->run_to(100);
+  flight->checkpoint();
+  flight.reset();
+  HotJournalFile::remove(run_);
+  flip_a_bit(newest("checkpoint-"), 200);
+  for (fs::path journal = newest("journal-"); !journal.empty(); journal = newest("journal-")) {
+    fs::remove(journal);
+  }
+  EXPECT_THROW(flight.emplace(9, path_), RunError);
+  flight.emplace(9, path_, true);
+  EXPECT_EQ(flight->step(), 0U);
+}
+
+TEST_F(KilledRun, refuses_a_last_journal_of_which_nothing_is_known) {
+  std::optional<RecordedFlight> flight(std::in_place, 9, path_, run_);
+  flight->run_to(100);
+  flight->checkpoint();
+  flight->run_to(150);
+  flight->log().move_records();
+  flight.reset();
+  HotJournalFile::remove(run_);
+  flip_a_bit(newest("journal-"), kFormat);
+  EXPECT_THROW(flight.emplace(9, path_), RunError);
+  flight.emplace(9, path_, true);
+  EXPECT_EQ(flight->step(), 100U);
+}
+
+TEST_F(KilledRun, does_not_take_memory_of_another_version_for_none) {
+  std::optional<RecordedFlight> flight(std::in_place, 9, path_, run_);
+  flight->run_to(20);
+  flight->hot().layout += 1;
+  flight.reset();
+  EXPECT_THROW(HotJournalFile::open(run_), RunError);
+  HotJournalFile::remove(run_);
+  EXPECT_FALSE(HotJournalFile::open(run_));
+  HotJournalFile::create(run_)->run = run_ + 1;
+  EXPECT_THROW(HotJournalFile::open(run_), RunError);
+}
+
 TEST_F(KilledRun, without_its_memory_goes_on_from_what_the_disk_has) {
   std::optional<RecordedFlight> flight(std::in_place, 2, path_, run_);
   flight->run_to(100);
