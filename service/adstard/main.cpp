@@ -198,15 +198,16 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   Supervisor supervisor(scene.simulation.pace == scene::Pace::clock
                             ? scene::beat_ns(scene.simulation)
                             : std::int64_t{0});
-  supervisor.ready(
-      fmt::format("'{}' flies {} spacecraft", scene.service.name, scene.spacecraft.size()));
+  supervisor.ready(fmt::format("'{}' {} {} spacecraft", scene.service.name,
+                               options.standby ? "stands by for" : "flies",
+                               scene.spacecraft.size()));
   BridgeCare care(bridge, segment, clock_ns(CLOCK_MONOTONIC));
   if (options.standby) {
     const auto state = await_state(care, bridge, segment, housekeeping, supervisor, plan, signals);
     if (!state) {
       segment->stop_requested.store(1);
       bridge.finish(kBridgePatienceMs);
-      return kFailed;
+      return kDone;
     }
     keeping.emplace(plan, options, tick, segment, &*state);
     segment->standby.following.store(1);
@@ -237,7 +238,13 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   std::int64_t next_look = 0;
   int exit_code = kDone;
   StandbyWatch standby_watch(*segment);
+  bool follows = options.standby;
   while (!ended.load()) {
+    if (follows && tick.report().following.load(std::memory_order_relaxed) == 0) {
+      follows = false;
+      supervisor.tell(fmt::format("'{}' has taken over, and flies {} spacecraft",
+                                  scene.service.name, scene.spacecraft.size()));
+    }
     if (const auto why = standby_watch.why_to_end(); why && !stop.load()) {
       spdlog::error("stopping: {}", *why);
       exit_code = kRefused;

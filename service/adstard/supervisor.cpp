@@ -44,6 +44,8 @@ Supervisor::~Supervisor() {
 
 void Supervisor::ready(std::string_view status) { send("READY=1\nSTATUS=" + std::string(status)); }
 
+void Supervisor::tell(std::string_view status) { send("STATUS=" + std::string(status)); }
+
 void Supervisor::stopping() { send("STOPPING=1"); }
 
 void Supervisor::look(std::uint64_t turns, std::int64_t now_ns) {

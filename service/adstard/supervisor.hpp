@@ -18,6 +18,7 @@ class Supervisor {
   Supervisor& operator=(const Supervisor&) = delete;
 
   void ready(std::string_view status);
+  void tell(std::string_view status);
   void stopping();
 
   /// Every few milliseconds: `turns` of the tick's loop. Says that it lives twice within the watchdog's time, unless

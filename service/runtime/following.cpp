@@ -77,6 +77,7 @@ void Tick::follow_to(const StandbyBeatRecord& primary, const std::atomic<bool>& 
   };
   while (step() < std::min(primary.step, last_step_) && complete() &&
          !stop.load(std::memory_order_relaxed)) {
+    add(report_.turns, 1);
     follow_beat();
     take_followed();
   }
@@ -127,6 +128,7 @@ std::int64_t Tick::make_up(const BeatClock& clock, const std::atomic<bool>& stop
   while (left > 0 && step() < last_step_ && beats_behind(clock, step(), now_ns) > 0 && !halted() &&
          !stop.load(std::memory_order_relaxed)) {
     account(beat(step(), now_ns), 0);
+    add(report_.turns, 1);
     add(report_.caught_up_beats, 1);
     now_ns = monotonic_ns();
     --left;

@@ -293,6 +293,19 @@ TEST_F(StandbyPair, takes_over_though_its_own_bridge_fell_while_it_followed) {
   }
 }
 
+TEST(Standby, that_never_had_a_state_ends_well_and_leaves_nothing_to_go_on_with) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const auto run = home.path() / "a";
+  GroundStation ground(corner);
+  Daemon alone(pair_scene(corner), {"--run", run.string(), "--standby"});
+  ASSERT_TRUE(ground.until([&] { return says(alone, "waits for its primary"); })) << alone.log();
+  EXPECT_EQ(alone.stop(), 0) << alone.log();
+  const auto resumed = Daemon::resuming(run);
+  EXPECT_EQ(resumed->exit_code(), 3);
+  EXPECT_TRUE(says(*resumed, "is a standby's that had no state yet")) << resumed->log();
+}
+
 TEST(Standby, says_what_is_missing_or_does_not_go_together) {
   const auto corner = testing::private_corner();
   const TemporaryDirectory home;

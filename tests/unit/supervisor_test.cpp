@@ -29,6 +29,8 @@ TEST_F(Managed, says_when_it_is_ready_and_when_it_ends) {
   Supervisor supervisor(0);
   supervisor.ready("'fly' flies 3 spacecraft");
   EXPECT_EQ(manager_.next(1000), "READY=1\nSTATUS='fly' flies 3 spacecraft");
+  supervisor.tell("'fly' has taken over");
+  EXPECT_EQ(manager_.next(1000), "STATUS='fly' has taken over");
   supervisor.stopping();
   EXPECT_EQ(manager_.next(1000), "STOPPING=1");
 }
