@@ -1,6 +1,10 @@
 #include "service/bridge/ros2_torques.hpp"
 
+#include <functional>
+#include <map>
+#include <mutex>
 #include <random>
+#include <string>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -83,7 +87,15 @@ adstar_TorqueCommand Ros2Torques::command(const ros2::WrenchStamped& wrench,
 }
 
 void log_refused_ros2(std::string_view spacecraft, std::string_view why) {
-  static dds::RateLimit limit(1);
+  // A node that is wrong all the time does not hide what another hears once. Two threads log.
+  static std::mutex mutex;
+  static std::map<std::string, dds::RateLimit, std::less<>> limits;
+  std::unique_lock lock(mutex);
+  const auto known = limits.find(spacecraft);
+  dds::RateLimit& limit = known != limits.end()
+                              ? known->second
+                              : limits.try_emplace(std::string(spacecraft), 1).first->second;
+  lock.unlock();
   if (const auto dropped = limit.admit()) {
     spdlog::warn("ROS 2: a torque for '{}' is not obeyed: {}{}", spacecraft, why,
                  *dropped > 0 ? fmt::format(" ({} more since the last one told)", *dropped) : "");

@@ -75,7 +75,7 @@ class Ros2Torques {
   std::vector<Topic> topics_;
 };
 
-/// For the log, at most a line a second: who sends a wrench hears nothing of CommandStatus.
+/// For the log, at most a line a second and spacecraft: who sends a wrench hears nothing of CommandStatus.
 void log_refused_ros2(std::string_view spacecraft, std::string_view why);
 
 /// The same when the gate would not have it.

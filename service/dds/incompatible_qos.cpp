@@ -29,7 +29,7 @@ void report(dds_entity_t entity, const char* ours, const char* theirs, std::uint
     spdlog::warn(
         "dds: a {} on topic '{}' does not match our {}: its QoS policy {} is incompatible; set "
         "that policy to the "
-        "default, or to what service/pages/commands.md says of the topic",
+        "default, or to what service/pages/commands.md (of rt/...: ros2.md) says of the topic",
         theirs, name.data(), ours, policy_name(policy));
     if (*dropped > 0) {
       spdlog::warn("dds: {} more incompatible peers", *dropped);

@@ -30,6 +30,9 @@ QosHandle make_qos(const Qos& qos) {
     dds_qset_durability_service(made.get(), 0, DDS_HISTORY_KEEP_LAST, qos.late_depth,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   }
+  // Nodes of ROS 2 since Iron look here for a hash of the type, and warn of each endpoint that has no user data at all
+  // (rmw_cyclonedds, issue 567); without the key "typehash" they are content.
+  dds_qset_userdata(made.get(), ";", 1);
   // Shared ownership, and automatic liveliness but between daemons: every other setting silently fails
   // to match a default peer.
   dds_qset_ownership(made.get(), DDS_OWNERSHIP_SHARED);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+
 #include "service/scene/decimal.hpp"
 #include "service/scene/nearest.hpp"
 #include "service/scene/scene.hpp"
@@ -54,18 +56,33 @@ std::string duration_remedy(const Node& node, std::string_view example) {
   return fallback;
 }
 
-}  // namespace
-
-std::optional<std::int64_t> read_duration(const Value& value, std::string_view example) {
+std::optional<std::int64_t> read_duration(const Value& value, std::string_view rule,
+                                          std::string_view example) {
   if (!value) {
     return std::nullopt;
   }
   const auto ns = value.is(Node::Kind::string) ? parse_duration(value.node().text) : std::nullopt;
   if (!ns || *ns <= 0) {
-    value.refuse(kDurationRule, duration_remedy(value.node(), example));
+    value.refuse(rule, duration_remedy(value.node(), example));
     return std::nullopt;
   }
   return ns;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> read_duration(const Value& value, std::string_view example) {
+  return read_duration(value, kDurationRule, example);
+}
+
+void read_duration_or_off(const Value& value, std::string_view example,
+                          std::optional<std::int64_t>& ns) {
+  if (value && value.is(Node::Kind::string) && value.node().text == "off") {
+    ns.reset();
+  } else if (const auto read =
+                 read_duration(value, fmt::format("{}, or \"off\"", kDurationRule), example)) {
+    ns = *read;
+  }
 }
 
 }  // namespace adstar::scene

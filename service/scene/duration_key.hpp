@@ -11,4 +11,8 @@ inline constexpr std::string_view kDurationRule =
 /// Nothing for an absent value; a complaint and nothing for a wrong one.
 std::optional<std::int64_t> read_duration(const Value& value, std::string_view example);
 
+/// The same into `ns`, which has the default; "off" empties it.
+void read_duration_or_off(const Value& value, std::string_view example,
+                          std::optional<std::int64_t>& ns);
+
 }  // namespace adstar::scene

@@ -50,14 +50,6 @@ void refuse_names(const Value& enabled, const std::vector<std::string>& names,
   }
 }
 
-void read_validity(const Value& value, Ros2& ros2) {
-  if (value.is(Node::Kind::string) && value.node().text == "off") {
-    ros2.torque_validity_ns.reset();
-  } else if (const auto ns = read_duration(value, "500ms")) {
-    ros2.torque_validity_ns = *ns;
-  }
-}
-
 }  // namespace
 
 std::optional<Ros2> read_ros2(Keys& root, const std::vector<std::string>& names,
@@ -70,7 +62,7 @@ std::optional<Ros2> read_ros2(Keys& root, const std::vector<std::string>& names,
   const Value enabled = keys.optional("enabled");
   const bool on = read_flag(enabled, "true").value_or(false);
   Ros2 ros2;
-  read_validity(keys.optional("torque_validity"), ros2);
+  read_duration_or_off(keys.optional("torque_validity"), "500ms", ros2.torque_validity_ns);
   ros2.clock = read_flag(keys.optional("clock"), "true").value_or(ros2.clock);
   ros2.tf = read_flag(keys.optional("tf"), "true").value_or(ros2.tf);
   keys.refuse_unknown();

@@ -40,10 +40,8 @@ void read_lockstep_timeout(const Value& value, Simulation& simulation) {
   if (simulation.pace != Pace::lockstep) {
     value.refuse("no lockstep_timeout beside pace = " + in_quotes(name_of(simulation.pace)),
                  "removing it, or pace = \"lockstep\"");
-  } else if (value.is(Node::Kind::string) && value.node().text == "off") {
-    simulation.lockstep_timeout_ns.reset();
-  } else if (const auto ns = read_duration(value, "10s")) {
-    simulation.lockstep_timeout_ns = *ns;
+  } else {
+    read_duration_or_off(value, "10s", simulation.lockstep_timeout_ns);
   }
 }
 

@@ -287,7 +287,8 @@ TEST_F(Ros2, is_heard_by_the_next_bridge_too) {
 struct Announced {
   std::string type;
   dds::QosHandle qos{nullptr, &dds_delete_qos};
-  bool tells_type = false;   ///< beside its name
+  bool tells_type = false;  ///< beside its name
+  std::string user_data;
   unsigned entity_kind = 0;  ///< last byte of its id
 };
 using AnnouncedTopics = std::map<std::string, Announced>;
@@ -309,6 +310,11 @@ void take_announced(const dds::Entity& reader, dds_instance_handle_t own, Announ
                     const_cast<dds_builtintopic_endpoint_t*>(&endpoint), &told),
                 DDS_RETCODE_OK);
       each.tells_type = told != nullptr;
+      void* data = nullptr;
+      std::size_t length = 0;
+      dds_qget_userdata(endpoint.qos, &data, &length);
+      each.user_data.assign(static_cast<const char*>(data), length);
+      dds_free(data);
     }
     dds_return_loan(reader.handle(), &sample, 1);
     sample = nullptr;
@@ -340,6 +346,7 @@ void expect_as_in_ros(const Announced& each, const std::string& type,
   EXPECT_EQ(partitions, 0U) << type;
   EXPECT_EQ(each.entity_kind, entity_kind) << type;
   EXPECT_FALSE(each.tells_type) << type;
+  EXPECT_EQ(each.user_data, ";") << "without any a node warns of it";
 }
 
 TEST_F(Ros2, finds_the_types_and_the_qos_of_ros_2_announced_without_keys) {

@@ -139,6 +139,14 @@ TEST(Ros2Types, are_called_as_rmw_cyclonedds_calls_them_and_have_no_key) {
   }
 }
 
+/// History is not announced, so nobody outside could tell.
+TEST(Ros2Topics, keep_as_many_samples_as_rclcpp_and_tf2_do) {
+  EXPECT_EQ(kAttitude.writer.depth, 10);
+  EXPECT_EQ(kAngularMomentum.writer.depth, 10);
+  EXPECT_EQ(kClock.writer.depth, 10);
+  EXPECT_EQ(kTf.writer.depth, 100);
+}
+
 TEST(Ros2Topics, are_a_spacecrafts_own_or_everybodys) {
   EXPECT_EQ(ros2::name_of("sat1", kAttitude), "rt/sat1/attitude");
   EXPECT_EQ(ros2::name_of("sat1", kAngularMomentum), "rt/sat1/angular_momentum");

@@ -34,7 +34,9 @@ TEST(SceneRos2, says_how_long_a_torque_holds_and_what_is_published) {
   EXPECT_FALSE(ros2->tf);
   EXPECT_FALSE(parse(with_ros2("enabled = true\ntorque_validity = \"off\""), "scene.toml")
                    .ros2->torque_validity_ns.has_value());
-  EXPECT_NE(refusal(with_ros2("enabled = true\ntorque_validity = \"0s\"")).find("torque_validity"),
+  EXPECT_NE(refusal(with_ros2("enabled = true\ntorque_validity = \"Off\""))
+                .find("torque_validity: got \"Off\", expected a duration above zero in whole "
+                      "nanoseconds (units ns, us, ms, s, min, h, d), or \"off\"; try \"500ms\""),
             std::string::npos);
 }
 
