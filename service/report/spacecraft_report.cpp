@@ -186,8 +186,12 @@ std::string text_of(const FixedPosition<double>& o) {
   return fmt::format("fixed, {} m from the centre", short_number(o.position.distance_m));
 }
 std::string text_of(const std::shared_ptr<const Ephemeris<double>>& o) {
-  return fmt::format("a table of {} epochs, from {} s to {} s", counted(o->rows.size()),
-                     short_number(o->rows.front().t_s), short_number(o->rows.back().t_s));
+  const auto missed = left_out_error(*o);
+  return fmt::format(
+      "a table of {} epochs, from {} s to {} s{}", counted(o->rows.size()),
+      short_number(o->rows.front().t_s), short_number(o->rows.back().t_s),
+      missed ? fmt::format("; from every other one it meets the rest within {:.0e} m", *missed)
+             : "; too few to tell how well it is met between them");
 }
 
 /// Outside its table the spacecraft stands still, which nobody asked for.
@@ -199,6 +203,15 @@ std::string span_warning(const Orbit<double>& orbit, double end_of_run_s) {
   return fmt::format(
       "    WARNING   its orbit is known from {} s to {} s, and not over the whole run\n",
       short_number(begin), short_number(end));
+}
+
+std::string spacing_warning(const Orbit<double>& orbit) {
+  constexpr double kMost_m = 1000;
+  const auto* const table = std::get_if<std::shared_ptr<const Ephemeris<double>>>(&orbit);
+  return table != nullptr && left_out_error(**table).value_or(0) > kMost_m
+             ? "    WARNING   its polynomial follows the epochs badly: more of them, a higher "
+               "degree, or there is a manoeuvre between two\n"
+             : "";
 }
 
 std::string surface_warning(const Orbit<double>& orbit) {
@@ -216,7 +229,8 @@ std::string orbit_line(const scene::Spacecraft& craft, double end_of_run_s) {
   if (craft.orbit) {
     text = "    orbit     " +
            std::visit([](const auto& orbit) { return text_of(orbit); }, *craft.orbit) + "\n" +
-           span_warning(*craft.orbit, end_of_run_s) + surface_warning(*craft.orbit);
+           span_warning(*craft.orbit, end_of_run_s) + surface_warning(*craft.orbit) +
+           spacing_warning(*craft.orbit);
   }
   if (craft.target) {
     const Quat<double>& q = craft.target->attitude;

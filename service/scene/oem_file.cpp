@@ -175,6 +175,11 @@ class OemReader {
     if (!t_ns) {
       return;
     }
+    constexpr double kFastest_km_s = 100;  // beyond it they are m/s
+    if (!(std::hypot(numbers[3], numbers[4], numbers[5]) < kFastest_km_s)) {
+      complain("row", "a speed that no spacecraft has", kRow, kRowExample);
+      return;
+    }
     constexpr double kKilo = 1e3;
     const double t_s = static_cast<double>(*t_ns) * 1e-9;
     if (!table_.rows.empty() && table_.rows.back().t_s >= t_s) {
@@ -207,6 +212,19 @@ class OemReader {
   bool has_centre_ = false, has_frame_ = false;
 };
 
+/// The first epoch [s] from which to the next the way is not that of the mean velocity, to half of it.
+std::optional<double> unlike_its_velocities(const Ephemeris<double>& table) {
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    const auto &a = table.rows[i - 1], &b = table.rows[i];
+    const Vec3<double> slope = (1 / (b.t_s - a.t_s)) * (b.r_I - a.r_I);
+    const double speed = std::max(norm(a.v_I), norm(b.v_I));
+    if (!(norm(slope - 0.5 * (a.v_I + b.v_I)) <= 0.5 * speed)) {
+      return a.t_s;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::shared_ptr<const Ephemeris<double>>> read_oem_file(
@@ -234,17 +252,15 @@ std::optional<std::shared_ptr<const Ephemeris<double>>> read_oem_file(
                     "at least two epochs of an orbit", "a longer table");
     return std::nullopt;
   }
-  const auto shared = make_ephemeris(std::move(*table));
-  constexpr double kMostOff = 0.2;
-  if (!(shared->off_gravity <= kMostOff)) {
+  if (const auto first = unlike_its_velocities(*table)) {
     value.refuse_as(in_quotes(file.string()) +
-                        ", between whose rows an orbit accelerates otherwise than by " +
-                        "gravity_m3_s2, by " + number_text(shared->off_gravity) + " of it",
-                    "rows so near that a polynomial follows the orbit, in km and km/s",
-                    "more rows, or a higher INTERPOLATION_DEGREE");
+                        ", whose velocities are not those of its positions, " +
+                        number_text(*first) + " s after the scene's epoch first",
+                    "positions in km and velocities in km/s, and rows that follow the orbit",
+                    "other units, or more rows");
     return std::nullopt;
   }
-  return shared;
+  return make_ephemeris(std::move(*table));
 }
 
 }  // namespace adstar::scene

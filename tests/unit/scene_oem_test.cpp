@@ -148,16 +148,51 @@ TEST_F(Oem, refuses_a_second_segment_by_its_line) {
       << complaint;
 }
 
-/// A row in twenty minutes, and a parabola through three: no orbit bends like that.
-TEST_F(Oem, refuses_rows_between_which_no_orbit_runs) {
-  std::string sparse;
-  for (const int minute : {0, 20, 40}) {
-    const std::string all = rows_of(kOrbit, minute + 1);
-    sparse += all.substr(minute == 0 ? 0 : all.rfind('\n', all.size() - 2) + 1);
+TEST_F(Oem, refuses_velocities_that_are_not_of_the_positions) {
+  // Of the wrong unit, and of rows half a revolution apart.
+  for (const char* const text : {"2026-01-01T00:00:00 7000000 0 0 0 7.5 0\n"
+                                 "2026-01-01T00:01:00 6986000 449000 0 -0.5 7.48 0\n",
+                                 "2026-01-01T00:00:00 7000 0 0 0 7.5 0\n"
+                                 "2026-01-01T00:48:30 -7000 0 0 0 -7.5 0\n"}) {
+    const std::string complaint = refused(kHead + text);
+    EXPECT_NE(complaint.find("whose velocities are not those of its positions, 0 s after"),
+              std::string::npos)
+        << complaint;
   }
-  const std::string complaint = refused(replaced(kHead, "HERMITE", "LAGRANGE") + sparse);
-  EXPECT_NE(complaint.find("accelerates otherwise than by gravity_m3_s2"), std::string::npos)
-      << complaint;
+  EXPECT_NE(refused(kHead + "2026-01-01T00:00:00 7000 0 0 0 7500 0\n")
+                .find("orbit.oem:12:1: row: got "
+                      "a speed that no spacecraft"),
+            std::string::npos);
+}
+
+/// A manoeuvre, or too few rows: flown as they are, and warned of.
+TEST_F(Oem, that_its_polynomial_follows_badly_is_warned_of) {
+  const auto report = [&](const std::string& text) {
+    write(text);
+    return report::scene_report(parse(scene(), directory_ / "scene.toml"));
+  };
+  const std::string warning = "WARNING   its polynomial follows the epochs badly";
+  const std::string good = report(kHead + rows_of(kOrbit, 40));
+  EXPECT_NE(good.find("; from every other one it meets the rest within 2e-06 m"), std::string::npos)
+      << good;
+  EXPECT_EQ(good.find(warning), std::string::npos);
+  // 100 m/s more from minute 20 on.
+  std::string pushed = rows_of(kOrbit, 20);
+  const OrbitMotion<double> at = motion_at(kOrbit, 60.0 * 20);
+  for (int minute = 20; minute < 40; ++minute) {
+    char row[300];
+    const Vec3<double> v = at.v_I + (100 / norm(at.v_I)) * at.v_I;
+    const Vec3<double> r = at.r_I + (60.0 * (minute - 20)) * v;
+    std::snprintf(row, sizeof row, "2026-01-01T00:%02d:00 %.6f %.6f %.6f %.9f %.9f %.9f\n", minute,
+                  r.x / 1e3, r.y / 1e3, r.z / 1e3, v.x / 1e3, v.y / 1e3, v.z / 1e3);
+    pushed += row;
+  }
+  EXPECT_NE(report(kHead + pushed).find(warning), std::string::npos);
+  EXPECT_NE(report(replaced(replaced(kHead, "HERMITE", "LAGRANGE"), "DEGREE = 7", "DEGREE = 2") +
+                   rows_of(kOrbit, 40))
+                .find(warning),
+            std::string::npos);
+  EXPECT_NE(report(kHead + rows_of(kOrbit, 5)).find("; too few to tell"), std::string::npos);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -43,8 +44,6 @@ struct Ephemeris {
   int degree = 7;
   T gravity_m3_s2 = T(kEarthGravity_m3_s2);
   T least_distance_m{}, greatest_speed_m_s{};  ///< over the span, some margin taken
-  /// |r'' + μ r/r³| by μ/r², the largest that was seen. Of an orbit it is small, of rows too far apart it is not.
-  T off_gravity{};
 
   /// Epochs that one polynomial goes through.
   std::size_t nodes() const {
@@ -199,6 +198,25 @@ OrbitPosition<T> position_at(const Ephemeris<T>& table, const T& t_s) {
   return {(T(1) / distance) * r_I, distance};
 }
 
+/// Through every other row alone: how far the polynomial misses those between [m], at most. With all of them it errs
+/// by some 2^(degree + 1) less. Nothing where the rows are too few to tell.
+template <class T>
+std::optional<T> left_out_error(const Ephemeris<T>& table) {
+  Ephemeris<T> half = table;
+  half.rows.clear();
+  for (std::size_t i = 0; i < table.rows.size(); i += 2) {
+    half.rows.push_back(table.rows[i]);
+  }
+  if (half.rows.size() <= half.nodes()) {
+    return std::nullopt;
+  }
+  T most{};
+  for (std::size_t i = 1; i + 1 < table.rows.size(); i += 2) {
+    most = std::max(most, T(norm(motion_at(half, table.rows[i].t_s).r_I - table.rows[i].r_I)));
+  }
+  return most;
+}
+
 /// A table without a defect, ready to be shared. Sampled eight times between epochs: what the distance may fall by
 /// between samples δ apart is at most δ²/8 of its acceleration, taken as twice μ/r², or twice what the samples'
 /// own second differences come to.
@@ -206,7 +224,7 @@ template <class T>
 std::shared_ptr<const Ephemeris<T>> make_ephemeris(Ephemeris<T> table) {
   constexpr int kSamples = 8;
   T least = norm(table.rows.front().r_I), fastest = norm(table.rows.front().v_I), widest{};
-  T strongest{}, off{};
+  T strongest{};
   for (std::size_t i = 1; i < table.rows.size(); ++i) {
     const T begin = table.rows[i - 1].t_s, gap = (table.rows[i].t_s - begin) / T(kSamples);
     widest = std::max(widest, gap);
@@ -218,15 +236,12 @@ std::shared_ptr<const Ephemeris<T>> make_ephemeris(Ephemeris<T> table) {
       fastest = std::max(fastest, T(norm(motion.v_I)));
       if (k > 1) {
         const Vec3<T> r2 = (T(1) / (gap * gap)) * ((motion.r_I - last) - (last - before));
-        const T d = norm(last), gravity = table.gravity_m3_s2 / d / d;
         strongest = std::max(strongest, T(norm(r2)));
-        off = std::max(off, T(norm(r2 + (gravity / d) * last) / gravity));
       }
       before = last;
       last = motion.r_I;
     }
   }
-  table.off_gravity = off;
   const T acceleration = T(2) * std::max(strongest, T(table.gravity_m3_s2 / least / least));
   const T fall = widest * widest / T(8) * acceleration;
   table.least_distance_m = std::max(T(0.5) * least, T(least - fall));
