@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -38,8 +39,9 @@ class Fields {
   const std::vector<Field>& all() const noexcept { return all_; }
 
  private:
-  Fields& add(Field field) {
-    all_.push_back(std::move(field));
+  template <class T>
+  Fields& add(T&& value) {
+    all_.emplace_back(std::forward<T>(value));
     return *this;
   }
   std::vector<Field> all_;
