@@ -8,6 +8,7 @@
 #include "service/dds/log_sink.hpp"
 #include "service/dds/qos.hpp"
 #include "service/dds/security.hpp"
+#include "service/scene/dds_domain.hpp"
 
 namespace adstar::dds {
 namespace {
@@ -38,6 +39,15 @@ std::string domain_subject(const ParticipantOptions& options) {
                                       : "");
 }
 
+std::string new_domain_subject(const ParticipantOptions& options) {
+  return domain_subject(options) +
+         (options.domain > scene::kMostSafeDomain
+              ? fmt::format(
+                    " (above {} Linux hands its ports to any program: \"in use\" may be that)",
+                    scene::kMostSafeDomain)
+              : "");
+}
+
 }  // namespace
 
 Participant::LibraryUse::LibraryUse() { ++g_library_users; }
@@ -55,7 +65,7 @@ Participant::LibraryUse::~LibraryUse() {
 Participant::Participant(ParticipantOptions options)
     : options_(std::move(options)),
       foreign_sockets_(open_udp_sockets()),
-      domain_(create_domain(options_), "dds_create_domain", domain_subject(options_)) {
+      domain_(create_domain(options_), "dds_create_domain", new_domain_subject(options_)) {
   bind_sockets_to_interface();
   const ListenerHandle listener = make_incompatible_qos_listener();
   const QosHandle security = options_.security ? make_security_qos(*options_.security)

@@ -12,6 +12,7 @@
 #include "service/report/numbers.hpp"
 #include "service/report/ros2_report.hpp"
 #include "service/report/spacecraft_report.hpp"
+#include "service/scene/dds_domain.hpp"
 
 namespace adstar::report {
 namespace {
@@ -186,6 +187,13 @@ std::string dds_report(const scene::Scene& scene) {
   std::string text = fmt::format(
       "dds\n  domain {}, {}, interface {}\n", dds.domain,
       dds.partition.empty() ? "default partition" : "partition " + dds.partition, dds.interface);
+  if (dds.domain > scene::kMostSafeDomain) {
+    text += fmt::format(
+        "  WARNING: Linux hands the ports of a domain above {} to any program, and the service "
+        "does "
+        "not start while one is taken\n",
+        scene::kMostSafeDomain);
+  }
   if (dds.interface == "lo") {
     text += "  loopback only: nothing outside this machine hears or commands it\n";
   } else if (!dds.security) {

@@ -17,7 +17,7 @@ fi
 bin=${1:-build/release}
 shift || true
 seconds=10
-domain=217
+domain=97
 partition=faults.$$
 
 fault_none() { what="none"; }

@@ -153,7 +153,7 @@ int main(int argc, char** argv) {
   }
   const int blocks = argc > 1 ? std::atoi(argv[1]) : 6;
   const int count = argc > 2 ? std::atoi(argv[2]) : 300;
-  const std::uint32_t domain = 20 + static_cast<std::uint32_t>(getpid()) % 200;
+  const std::uint32_t domain = 20 + static_cast<std::uint32_t>(getpid()) % 82;
   std::string scene = "/tmp/adstar-latency.XXXXXX";
   close(mkstemp(scene.data()));
   std::ofstream(scene) << fmt::format(kScene, domain);

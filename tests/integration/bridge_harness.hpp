@@ -18,6 +18,7 @@
 
 #include "service/dds/participant.hpp"
 #include "service/runtime/shared_segment.hpp"
+#include "service/scene/dds_domain.hpp"
 
 namespace adstar::testing {
 
@@ -34,10 +35,12 @@ bool eventually(Condition&& holds, std::chrono::milliseconds deadline = std::chr
   return true;
 }
 
-/// A domain and a partition that no other test process uses at the same time.
+/// A domain and a partition that no other test process uses at the same time. No socket of another program may have the
+/// ports of these domains (kMostSafeDomain).
 inline dds::ParticipantOptions private_corner(std::string interface = "lo") {
   const auto pid = static_cast<std::uint32_t>(getpid());
-  return {20 + pid % 200, std::move(interface), fmt::format("test.{}", pid)};
+  return {20 + pid % (scene::kMostSafeDomain - 19), std::move(interface),
+          fmt::format("test.{}", pid)};
 }
 
 /// Two spacecraft, three actuators.

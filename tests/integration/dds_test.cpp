@@ -1,7 +1,9 @@
 // service/dds against the real library: participants, their errors, what peers are told.
 
 #include <arpa/inet.h>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <mutex>
 #include <set>
 #include <sstream>
@@ -57,6 +59,19 @@ TEST(DdsParticipant, leaves_the_sockets_of_others_alone) {
   EXPECT_EQ(getsockopt(mine, SOL_SOCKET, SO_BINDTODEVICE, device, &size), 0);
   EXPECT_EQ(size, 0U);
   close(mine);
+}
+
+TEST(DdsParticipant, says_that_a_high_domain_shares_its_ports_when_they_are_taken) {
+  const int other = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in any{};
+  any.sin_family = AF_INET;
+  any.sin_port = htons(7400 + 250 * 102);
+  ASSERT_EQ(bind(other, reinterpret_cast<const sockaddr*>(&any), sizeof any), 0) << strerror(errno);
+  const std::string error = error_of([] { dds::Participant({102}); });
+  EXPECT_EQ(error.find("dds_create_domain on domain 102 on interface 'lo' (above 101 Linux hands"),
+            0U)
+      << error;
+  close(other);
 }
 
 TEST(DdsParticipant, names_the_interfaces_there_are_when_it_is_given_another) {
