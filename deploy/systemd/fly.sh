@@ -4,14 +4,15 @@
 #   fly NAME        the directories are those that systemd names: /etc/adstar, /var/lib/adstar
 scene=$CONFIGURATION_DIRECTORY/$1.toml
 run=$STATE_DIRECTORY/$1
+adstard=${ADSTARD:-/usr/bin/adstard}  # not by the path: /usr/local/bin, with a build of one's own, comes first there
 
 if [ "${ADSTAR_ROLE:-primary}" = standby ]; then
-  exec adstard "$scene" --standby --run "$run.standby-$INVOCATION_ID"
+  exec "$adstard" "$scene" --standby --run "$run.standby-$INVOCATION_ID"
 fi
 if [ ! -e "$run/run.json" ]; then
-  exec adstard "$scene" --run "$run"
+  exec "$adstard" "$scene" --run "$run"
 fi
 if ! cmp -s "$scene" "$run/scene.toml"; then
   echo "<4>$scene is not what $run began with: the run goes on with its own scene. To fly the new one: stop, rm -r $run, start" >&2
 fi
-exec adstard --resume "$run"
+exec "$adstard" --resume "$run"

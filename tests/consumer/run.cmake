@@ -13,7 +13,7 @@ set(compilers -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_C_COMPILER=${C_COMPILER} 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/core -G ${GENERATOR} ${compilers}
     -DADSTAR_BUILD_SERVICE=OFF -DADSTAR_BUILD_TESTS=OFF)
-run(${CMAKE_COMMAND} --install ${WORK}/core --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} --install ${WORK}/core --prefix ${WORK}/prefix --component dev)
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/project -B ${WORK}/consumer -G ${GENERATOR} ${compilers}
     -DCMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)

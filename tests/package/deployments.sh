@@ -36,7 +36,7 @@ start() {
   local role=${3:-primary}
   local daemon="$2 ($role, $1)"
   : > "$work/$daemon.log"
-  ip netns exec "$(netns "$1")" env PATH="$bin:$PATH" CONFIGURATION_DIRECTORY="$work/$1/etc" STATE_DIRECTORY="$work/$1/var" \
+  ip netns exec "$(netns "$1")" env ADSTARD="$bin/adstard" CONFIGURATION_DIRECTORY="$work/$1/etc" STATE_DIRECTORY="$work/$1/var" \
     INVOCATION_ID=$RANDOM ADSTAR_ROLE="$role" sh "$source/deploy/systemd/fly.sh" "$2" 2>> "$work/$daemon.log" &
   pid[$daemon]=$!
 }
