@@ -12,7 +12,9 @@ fi
 if [ ! -e "$run/run.json" ]; then
   exec "$adstard" "$scene" --run "$run"
 fi
-if ! cmp -s "$scene" "$run/scene.toml"; then
+if [ ! -e "$scene" ]; then
+  echo "<4>$scene is missing: the run goes on with its own scene, $run/scene.toml" >&2
+elif ! cmp -s "$scene" "$run/scene.toml"; then
   echo "<4>$scene is not what $run began with: the run goes on with its own scene. To fly the new one: stop, rm -r $run, start" >&2
 fi
 exec "$adstard" --resume "$run"

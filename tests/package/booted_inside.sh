@@ -36,6 +36,13 @@ kill -STOP "$second"
 await 30 "the watchdog" another "$second"
 proved "stopped, it is ended by the watchdog and started again"
 
+! systemctl start adstar@none 2> /dev/null || fail "a unit without a scene has started"
+restarts() { systemctl show --property NRestarts --value "$1"; }
+tried_once() { systemctl is-failed --quiet "$1" && [[ "$(systemctl show --property ExecMainStatus --value "$1")" == "$2" ]]; }
+tried_once adstar@none 2 || fail "a unit without a scene: $(systemctl status adstar@none)"
+[[ "$(restarts adstar@none)" == 0 ]] || fail "what cannot fly was tried again $(restarts adstar@none) times"
+proved "a unit without a scene fails once: $(journalctl --no-pager --output cat -u adstar@none | grep -m 1 -o '/etc/adstar/none.toml.*')"
+
 echo '# edited' >> /etc/adstar/demo.toml
 systemctl restart adstar@demo
 await 20 "the daemon is on the bus" listed
