@@ -11,13 +11,14 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${share} COMPONENT a
 install(FILES ${deploy}/systemd/adstar@.service DESTINATION ${units} COMPONENT adstar)
 install(FILES ${deploy}/systemd/adstar.sysusers.conf DESTINATION lib/sysusers.d RENAME adstar.conf COMPONENT adstar)
 install(PROGRAMS ${deploy}/systemd/fly.sh DESTINATION lib/adstar RENAME fly COMPONENT adstar)
-install(FILES ${deploy}/systemd/standby.conf DESTINATION ${share}/deploy/systemd COMPONENT adstar)
+install(FILES ${deploy}/systemd/standby.conf ${deploy}/systemd/adstar@.service DESTINATION ${share}/deploy/systemd COMPONENT adstar)
 install(DIRECTORY ${deploy}/scenes DESTINATION ${share}/deploy COMPONENT adstar)
 install(PROGRAMS ${deploy}/security/make.sh DESTINATION ${share}/deploy/security COMPONENT adstar)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/idl DESTINATION ${share} COMPONENT dev FILES_MATCHING PATTERN "*.idl")
 
 install(FILES ${deploy}/systemd/adstar-dashboard.service DESTINATION ${units} COMPONENT dashboard)
+install(FILES ${deploy}/systemd/adstar-dashboard.service DESTINATION ${share}/deploy/systemd COMPONENT dashboard)
 install(DIRECTORY ${deploy}/prometheus ${deploy}/grafana DESTINATION ${share}/deploy COMPONENT dashboard)
 
 # /etc of the system is no part of a prefix: only what is installed as the system's own goes there.

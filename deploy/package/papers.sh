@@ -104,10 +104,15 @@ adstar ($version-1) bookworm; urgency=medium
  -- $contact  $(date -R -d "@$SOURCE_DATE_EPOCH")
 TEXT
 }
-document() {  # component, package, files of the tree, which keep their place
-  local file
+# Pages keep their place below /usr/share/adstar, where help and messages name them; /usr/share/doc, which the image of a container may
+# be without, leads there.
+document() {  # component, package, files of the tree
+  local file doc
   for file in "${@:3}"; do
-    install -D -m 644 "$source/$file" "$output/$1/doc/$2/$file"
+    install -D -m 644 "$source/$file" "$output/$1/adstar/$file"
+    doc=$output/$1/doc/$2/$file
+    mkdir -p "$(dirname "$doc")"
+    ln -sr "$output/$1/adstar/$file" "$doc"
   done
 }
 papers adstar adstar

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes what DDS Security asks for: two certificate authorities, and a directory for each participant.
-#   bash deploy/security/make.sh [--days N] DIR             authorities, a daemon, a commander and a watcher
+#   bash deploy/security/make.sh [--days N] DIR             authorities, a daemon, a commander and a watcher; DIR is new, and yours
 #   bash deploy/security/make.sh [--days N] DIR NAME ROLE   one more: daemon, operator, commander, watcher
 # Nothing that is there already is overwritten. What each file is: deploy/security/README.md.
 set -euo pipefail
@@ -16,7 +16,7 @@ if [[ "${1:-}" == --days ]]; then
   shift 2
 fi
 if [[ $# -ne 1 && $# -ne 3 || -z "${1:-}" || "${1:-}" == -* ]]; then usage; fi
-command -v openssl >/dev/null || fail "openssl is missing; try: bash deploy/install-deps.sh"
+command -v openssl >/dev/null || fail "openssl is missing; try: apt-get install openssl"
 
 dir=$1
 authorities=$dir/authorities

@@ -85,6 +85,18 @@ gunzip < "$share/man/man5/adstar-scene.5.gz" | grep -q 'spin_inertia_kg_m2' || f
 bash -n "$share/bash-completion/completions/adstar" || fail "bash completion"
 proved "$((${#verbs[@]} + 4)) man pages, and mandoc finds nothing in them"
 
+# Paths that the programs and the pages of running them name. deploy/package.sh is for a machine that builds.
+mapfile -t named < <(grep -aohE '\b(configs|deploy|service|idl|include)/[A-Za-z0-9_./@-]+\.(md|sh|toml|csv|conf|service|xml)\b' \
+  "$root"/usr/bin/adstar* "$share"/adstar/deploy/{README.md,security/README.md} | grep -vx deploy/package.sh | sort -u)
+[[ ${#named[@]} -gt 15 ]] || fail "only ${#named[@]} paths were found: the pattern is broken"
+for path in "${named[@]}"; do
+  [[ -f "$share/adstar/$path" ]] || fail "/usr/share/adstar has no $path, which a program or a page names"
+done
+for page in README.md service/pages/runs.md deploy/README.md; do
+  [[ "$share/doc/adstar/$page" -ef "$share/adstar/$page" ]] || fail "/usr/share/doc/adstar/$page does not lead to the page"
+done
+proved "${#named[@]} paths that programs and pages name are in /usr/share/adstar"
+
 for scene in "$share"/adstar/configs/scenes/*.toml "$root"/etc/adstar/*.toml; do
   "$root/usr/bin/adstar" check "$scene" > "$work/said" 2>&1 || fail "$scene: $(cat "$work/said")"
 done
