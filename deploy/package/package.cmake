@@ -41,8 +41,16 @@ add_custom_target(package_papers
           ${ADSTAR_PACKAGE_CONTACT}
   DEPENDS adstar adstard adstar-bridge
   COMMENT "Man pages, completion, changelogs" VERBATIM)
+# There when packages are made, and wherever ADSTAR_PAPERS of the environment says.
 foreach(component IN ITEMS adstar dev dashboard)
-  install(DIRECTORY ${papers}/${component}/ DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT ${component} OPTIONAL)
+  install(CODE "
+    set(papers \"${papers}/${component}\")
+    if(DEFINED ENV{ADSTAR_PAPERS})
+      set(papers \"\$ENV{ADSTAR_PAPERS}/${component}\")
+    endif()
+    if(EXISTS \"\${papers}\")
+      file(INSTALL \"\${papers}/\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")
+    endif()" COMPONENT ${component})
 endforeach()
 
 # ---- the packages ---------------------------------------------------------------------------------

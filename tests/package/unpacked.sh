@@ -30,7 +30,8 @@ fail() {
 }
 
 # Papers and packages of its own, so that those of somebody who makes packages stay as they are.
-bash "$source/deploy/package/papers.sh" "$build" "$build/package" "$("$build/adstard" --version)" \
+export ADSTAR_PAPERS=$work/papers
+bash "$source/deploy/package/papers.sh" "$build" "$ADSTAR_PAPERS" "$("$build/adstard" --version)" \
   "$(sed -n 's/^ADSTAR_PACKAGE_CONTACT:STRING=//p' "$build/CMakeCache.txt")"
 (cd "$build" && cpack -B "$work/making" -D CPACK_OUTPUT_FILE_PREFIX="$work/made") > "$work/cpack" 2>&1 || fail "cpack: $(cat "$work/cpack")"
 mkdir "$work/control"
