@@ -10,6 +10,7 @@ export LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive
 build=$(cd "${1:-build/release}" && pwd)
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$source/tests/support/proof.sh"
+source "$source/tests/support/typed.sh"
 source "$source/tests/package/roots.sh"
 missing_tools bare_root.sh ip
 
@@ -38,6 +39,7 @@ fail() {
 }
 
 make_two_versions
+apt_settings
 make_root "$root" "${2:-}"
 mount -t proc proc "$root/proc"
 mkdir -p "$root/dev/shm"
@@ -46,9 +48,14 @@ mount --bind "$work/debs" "$root/packages"
 
 ip netns add "$netns" || fail "a network namespace"
 ip -n "$netns" link set lo up
-inside() { chroot "$root" "$@"; }
+inside() { chroot "$root" env APT_CONFIG=/packages/apt.conf "$@"; }
 flying() { ip netns exec "$netns" chroot --userspec=adstar:adstar "$root" "$@"; }  # as the unit's account, on a wire of its own
-get() { inside apt-get -y -qq -o Dpkg::Use-Pty=0 --no-install-recommends "$@" >> "$work/apt.log" 2>&1 || fail "apt-get $*"; }
+get() { inside apt-get "$@" >> "$work/apt.log" 2>&1 || fail "apt-get $*"; }
+as_said() {  # section of deploy/README.md, directory of packages
+  local lines
+  lines=$(typed "$source/deploy/README.md" "$1" "^apt install")
+  inside bash -ec "cd /packages/$2; $lines" >> "$work/apt.log" 2>&1 || fail "$lines"
+}
 
 paths() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./packages -o -path ./var/cache -o -path ./var/log \
   -o -path ./var/lib/apt -o -path ./tmp \) -prune -o -print | sort); }
@@ -58,9 +65,7 @@ cp "$root/etc/passwd" "$work/passwd"
 proved "a bare Debian $(cat "$root/etc/debian_version") of $(inside dpkg-query -f '.\n' -W | wc -l) packages"
 
 # ---- installed ----------------------------------------------------------------------------------------
-mapfile -t first < <(cd "$work/debs/first" && printf '/packages/first/%s\n' *.deb)
-mapfile -t second < <(cd "$work/debs/second" && printf '/packages/second/%s\n' *.deb)
-get install "${first[@]}"
+as_said Install first
 version() { inside dpkg-query -f '${db:Status-Status} ${Version}' -W "$1"; }
 [[ "$(version adstar)" == "installed "*-1 ]] || fail "adstar is $(version adstar)"
 proved "installed: adstar, adstar-dashboard, libadstar-dev, and what they depend on"
@@ -98,7 +103,7 @@ proved "adstar dashboard: $(grep -m 1 '^adstar_up' "$work/metrics")"
 child() { pgrep -x adstard; }
 before=$(child)
 bridge=$(pgrep -P "$before" -x adstar-bridge)
-get install -o Dpkg::Options::=--force-confdef -o Dpkg::Options::=--force-confold "${second[@]}"
+as_said Upgrades second
 [[ "$(version adstar)" == "installed "*-2 && "$(version adstar-dashboard)" == "installed "*-2 ]] || fail "not upgraded"
 [[ "$(child)" == "$before" && "$(readlink "/proc/$before/exe")" == *"(deleted)" ]] || fail "the upgrade touched the daemon"
 listed || fail "the daemon is off the bus after the upgrade"

@@ -27,6 +27,12 @@ make_two_versions() {
   dpkg-deb --root-owner-group -b "$work/opened" "${newer[0]}" > /dev/null
 }
 
+# So that apt does what deploy/README.md has somebody type, and asks nothing: APT_CONFIG, beside the packages.
+apt_settings() {
+  printf '%s\n' 'APT::Get::Assume-Yes "true";' 'APT::Install-Recommends "false";' 'quiet "2";' 'Dpkg::Use-Pty "false";' \
+    'Dpkg::Options { "--force-confdef"; "--force-confold"; };' > "$work/debs/apt.conf"
+}
+
 # A minimal bookworm in `root`, by apt's own way to its registry; or a copy of one.
 make_root() {  # root, a bare root or nothing
   local mirror
