@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# In the root that booted.sh has booted: adstar@demo is started, killed, stopped by its watchdog, upgraded under, purged.
-# What deploy/README.md has somebody type is typed as it says.
+# In the root that booted.sh has booted: adstar@demo is started, killed, stopped by its watchdog, upgraded under, purged; adstar@two
+# stands by for adstar@one and takes over. What deploy/README.md has somebody type is typed as it says.
 set -euo pipefail
 export LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive APT_CONFIG=/packages/apt.conf
 source /packages/proof.sh
@@ -23,6 +23,13 @@ failed_with() { systemctl is-failed --quiet "$1" && [[ "$(is "$1" ExecMainStatus
 cd /packages/first
 as_said Install "^apt install"
 [[ "$(systemctl is-active adstar@demo adstar-dashboard || true)" == $'inactive\ninactive' ]] || fail "installing has started something"
+mapfile -t rated < <(sed -n '/^## What the units may do/,/^## /s/^    systemd-analyze .*[^ ]  *# //p' /packages/README.md)
+as_said "What the units may do" .
+for rating in "${rated[@]}"; do
+  grep -q "Overall exposure level.*: $rating" /packages/log || fail "systemd-analyze does not say $rating: $(grep Overall /packages/log)"
+done
+[[ ${#rated[@]} == 2 ]] || fail "the page rates ${#rated[@]} units"
+proved "the units are rated ${rated[*]}"
 systemctl enable --now --quiet adstar@demo || fail "start: $(journal demo | tail -n 20)"
 await 20 "the daemon is on the bus" listed "$name"
 first=$(pid_of demo)
@@ -58,6 +65,20 @@ await 20 "the daemon is on the bus" listed "$name"
   fail "the edited scene is no warning in the journal"
 proved "an edited scene is a warning in the journal"
 
+for unit in one two; do
+  sed 's/"sat1"/"paired"/' /usr/share/adstar/configs/scenes/pair.toml > /etc/adstar/$unit.toml
+done
+systemctl start adstar@one
+as_said "A fleet in shards" "standby.conf|daemon-reload" "s/NAME/two/"
+systemctl start adstar@two
+await 20 "the standby follows" says two "follows from step"
+kill -KILL "$(pid_of one)"
+await 20 "the standby takes over" says two "the primary is gone"
+await 20 "the primary comes back and is refused" failed_with adstar@one 3
+[[ "$(is adstar@one NRestarts)" == 1 ]] || fail "the primary was started again $(is adstar@one NRestarts) times, once was enough"
+listed pair || fail "nobody flies what the primary flew"
+proved "a unit with standby.conf follows and takes over; the primary comes back, is refused, and that is not tried again"
+
 systemctl start adstar-dashboard || fail "the dashboard"
 metrics() { { exec 3<> /dev/tcp/127.0.0.1/8765 && printf 'GET /metrics HTTP/1.1\r\nHost: 127.0.0.1:8765\r\nConnection: close\r\n\r\n' >&3 && cat <&3; } 2> /dev/null > /packages/metrics; grep -q '^adstar_up{.*} 1' /packages/metrics; }
 await 20 "metrics" metrics
@@ -66,13 +87,20 @@ flies=$(pid_of demo)
 cd /packages/second
 as_said Upgrades "^apt install"
 [[ "$(pid_of demo)" == "$flies" ]] || fail "the upgrade restarted what flies"
-grep -q "adstar@demo.service flies on with version" /packages/log || fail "the upgrade does not name what flies on: $(cat /packages/log)"
+grep -q "adstar@demo.service flies on with the program it was started with" /packages/log || fail "the upgrade does not name what flies on: $(cat /packages/log)"
+grep -q "adstar@two.service, a standby, .*A restart begins a new standby" /packages/log || fail "the upgrade does not say what a restart of a standby is: $(cat /packages/log)"
 [[ "$(is adstar-dashboard MainPID)" != "$page" ]] || fail "the dashboard is the old one"
 proved "upgraded, both packages: $(grep -o 'adstar@demo.service flies on.*' /packages/log); the dashboard is restarted"
 systemctl restart adstar@demo
 await 20 "the daemon is on the bus" another "$flies"
 proved "restarted, the new version goes on with the run"
+as_said "The one that took over" . "s/NAME/two/g; s/standby-ID/standby-*/"
+says two 'the run goes on at step' || fail "the one that took over did not go on: $(journal two | tail -n 20)"
+await 20 "the one that took over is back" listed pair
+proved "the one that took over is made the primary: $(journal two | grep -m 1 -o 'the run goes on at step.*')"
 
+rm /etc/adstar/{one,two}.toml  # somebody's own
+rmdir /etc/systemd/system/adstar@two.service.d
 apt-get purge adstar adstar-dashboard libadstar-dev > /packages/log 2>&1 || fail "apt-get purge: $(tail -n 20 /packages/log)"
 [[ "$(systemctl is-active adstar@demo || true)" != active && -z "$(pgrep 'adstar' || true)" ]] || fail "it flies after the purge"
 left=$(find / -xdev -name '*adstar*' -not -path '/packages/*' -not -path '/proc/*' -not -path '/var/cache/*' -not -path '/var/log/*' -not -path '/var/lib/systemd/*')

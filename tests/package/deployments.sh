@@ -14,6 +14,7 @@ wire=eth0
 work=$(mktemp -d)
 source "$source/tests/support/proof.sh"
 source "$source/tests/support/two_hosts.sh"
+source "$source/tests/support/typed.sh"
 
 fail() {
   echo "deployments.sh: FAILED: $*" >&2
@@ -49,9 +50,20 @@ stop() {
   ends_with "$1" 0
 }
 
+fall() {
+  kill -KILL "${pid[$1]}"
+  ends_with "$1" 137
+}
+
 adstar() { timeout 30 ip netns exec "$(netns "$1")" "$bin/adstar" "${@:2}"; }  # host, verb and operands
 list() { adstar "$1" list --timeout 1s "${@:2}" 2> /dev/null || true; }
 listed() { list "$1" "${@:3}" | grep -q "^service '$2': running"; }  # host, service, options
+
+as_said() {  # host, section of deploy/README.md, which lines, what to put for its names: done in the host's own /var/lib/adstar
+  local lines
+  lines=$(typed "$source/deploy/README.md" "$2" "$3" | sed -e "$4" -e "s|/var/lib/adstar|$work/$1/var|g")
+  (cd "$work/$1/var" && eval "$lines")
+}
 
 lay_out() {  # scenes, the same on each host, with the keys beside them
   local host scene
@@ -146,9 +158,7 @@ both() { list flight "${secured[@]}" --partition 'shard_*' > "$work/listed"; gre
 await 20 "both shards by a wildcard" both
 proved "each is heard in its partition alone, both in 'shard_*'"
 
-lost=${pid["shard_a (primary, flight)"]}
-kill -KILL "$lost"
-ends_with "shard_a (primary, flight)" 137
+fall "shard_a (primary, flight)"
 await 15 "the standby takes over" says "shard_a (standby, plant)" "the primary is gone"
 await 20 "shard a is back" listed flight shard_a "${secured[@]}" --partition shard_a
 adstar flight torque a000 --torque-n-m 0 0 1e-4 --for 100ms "${secured[@]}" --partition shard_a > "$work/verdict" 2>&1 ||
@@ -158,7 +168,24 @@ proved "shard a is killed: its standby goes on, $(head -n 1 "$work/verdict")"
 start flight shard_a
 ends_with "shard_a (primary, flight)" 3
 proved "the lost one comes back by itself, and is refused: $(tail -n 1 "$work/shard_a (primary, flight).log" | cut -c 1-120)"
-rm -f "/dev/shm/adstar-$(sed -n 's/.*"run": "\([0-9a-f]*\)".*/\1/p' "$work/flight/var/shard_a/run.json")"  # it never goes on
+mv "$work/flight/var/shard_a" "$work/flight/var/shard_a.lost"
 start flight shard_a standby
 await 30 "a new standby follows" says "shard_a (standby, flight)" "follows from step"
 proved "the other machine stands by for shard a now"
+
+fall "shard_a (standby, plant)"
+await 15 "the new standby takes over" says "shard_a (standby, flight)" "the primary is gone"
+await 20 "shard a is back" listed plant shard_a "${secured[@]}" --partition shard_a
+proved "the one that took over is killed: the new standby goes on"
+fall "shard_a (standby, flight)"
+as_said flight "The one that took over" "^mv" "s/NAME/shard_a/g; s/standby-ID/standby-*/"
+start flight shard_a
+await 30 "its run goes on" says "shard_a (primary, flight)" "the run goes on at step"
+await 20 "shard a is back" listed plant shard_a "${secured[@]}" --partition shard_a
+proved "killed with nobody behind it, it is made the primary: $(grep -o 'the run goes on at step [0-9]*' "$work/shard_a (primary, flight).log")"
+as_said flight "Old runs" . "s/OLD/shard_a.lost/"
+as_said plant "Old runs" . "s/OLD/shard_a.standby-*/"
+[[ ! -e "$work/flight/var/shard_a.lost" ]] || fail "an old run is still there"
+start plant shard_a standby
+await 30 "it is followed" says "shard_a (standby, plant)" "follows from step"
+proved "old runs are removed, and it is followed again"
