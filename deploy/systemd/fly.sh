@@ -1,13 +1,13 @@
 #!/bin/sh
-# What adstar@NAME.service runs: goes on with the run of the scene where there is one, and begins it where there is none.
-# With ADSTAR_ROLE=standby (standby.conf) it follows the daemon that flies the scene elsewhere, in a new run each time.
+# What adstar@NAME.service runs, and the container: goes on with the run of the scene where there is one, and begins it where there
+# is none. With ADSTAR_ROLE=standby (standby.conf) it follows the daemon that flies the scene elsewhere, in a new run each time.
 #   fly NAME        the directories are those that systemd names: /etc/adstar, /var/lib/adstar
 scene=$CONFIGURATION_DIRECTORY/$1.toml
 run=$STATE_DIRECTORY/$1
 adstard=${ADSTARD:-/usr/bin/adstard}  # not by the path: /usr/local/bin, with a build of one's own, comes first there
 
 if [ "${ADSTAR_ROLE:-primary}" = standby ]; then
-  exec "$adstard" "$scene" --standby --run "$run.standby-$INVOCATION_ID"
+  exec "$adstard" "$scene" --standby --run "$run.standby-${INVOCATION_ID:-$(cat /proc/sys/kernel/random/uuid)}"
 fi
 if [ ! -e "$run/run.json" ]; then
   exec "$adstard" "$scene" --run "$run"

@@ -35,8 +35,34 @@ container=$(in_store from localhost/adstar)
 user=$(in_store run "$container" -- id -un)
 [[ "$user" == adstar ]] || fail "it runs as $user"
 in_store run "$container" -- adstar check configs/scenes/demo.toml > "$work/log" 2>&1 || fail "adstar check"
-[[ "$(in_store inspect --format '{{.OCIv1.Config.Entrypoint}} {{.OCIv1.Config.Cmd}}' localhost/adstar)" == \
-  "[/usr/bin/adstard] [/etc/adstar/demo.toml]" ]] || fail "entry point"
-in_store run "$container" -- /usr/bin/adstard /etc/adstar/demo.toml --duration 2s --service boxed > "$work/log" 2>&1 || fail "adstard"
+in_store inspect --format '{{range .OCIv1.Config.Entrypoint}}{{println .}}{{end}}{{range .OCIv1.Config.Cmd}}{{println .}}{{end}}' localhost/adstar > "$work/command"
+mapfile -t command < <(grep . "$work/command")
+fly() { in_store run "$@" "$container" -- "${command[@]}" > "$work/log" 2>&1; }  # what `podman run` would start, with its options
+
+# The demo, but that it ends.
+mkdir "$work/plain"
+sed -e 's/^duration = "endless"/duration = "2s"/' -e 's/^\[dds\]/&\ndomain = 79/' "$source/configs/scenes/demo.toml" > "$work/plain/demo.toml"
+chmod -R go+rX "$work" "$work/plain"
+fly --volume "$work/plain:/etc/adstar:ro" || fail "${command[*]}"
 grep -q '2000 steps of 1ms' "$work/log" || fail "it took other steps"
-proved "it flies the demo as $user: $(grep -o '2000 steps.*' "$work/log")"
+proved "'${command[*]}' flies the demo as $user: $(grep -o '2000 steps.*' "$work/log")"
+
+# As deploy/README.md has it, with keys: an account of the machine, its scenes and its runs.
+account=4242
+mkdir "$work/secured"
+bash "$source/deploy/security/make.sh" "$work/keys" > /dev/null
+cp -r "$work/keys/daemon" "$work/secured/keys"
+{
+  cat "$work/plain/demo.toml"
+  sed -n '/^\[dds.security\]/,/^$/s/keys\/daemon/keys/p; /^\[dds.security\]/p' "$source/deploy/scenes/two_machines.toml"
+} > "$work/secured/demo.toml"
+chown -R $account:$account "$work/secured/keys"
+install -d -o $account -g $account -m 700 "$work/runs"
+mine=(--volume "$work/runs:/var/lib/adstar" --volume "$work/secured:/etc/adstar:ro")  # buildah 1.28 mounts over a VOLUME what comes first alone
+! fly "${mine[@]}" || fail "$user of the image has read keys of somebody else's"
+grep -q 'private_key: got .*cannot be read' "$work/log" || fail "somebody else's keys"
+fly --user $account:$account "${mine[@]}" || fail "as the account of the keys"
+grep -q '2000 steps of 1ms' "$work/log" || fail "it took other steps"
+fly --user $account:$account "${mine[@]}" || fail "the second time"
+grep -q 'the run goes on at step 2000' "$work/log" || fail "it did not go on"
+proved "with keys, as their account, it flies, and the next container goes on: $(grep -o 'the run goes on at step.*' "$work/log")"
