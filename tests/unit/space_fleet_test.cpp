@@ -115,5 +115,21 @@ TEST(Pointing, is_told_against_the_orbital_frame) {
   EXPECT_NEAR(told.q_OB[0], 1, 1e-5);
 }
 
+/// Against differences of the frame itself, whose plane J2 turns by 1e-6 rad/s here.
+TEST(Pointing, of_an_orbit_whose_plane_turns_is_told_against_what_turns_with_it) {
+  scene::Spacecraft craft = test::in_space(test::make_craft(0));
+  craft.orbit = make_secular_orbit<double>({7e6, 0.02, 0.9, 0.4, 0.7, 0.2});
+  constexpr double t = 1000, h = 0.5;
+  const auto attitude = [&](double at_s) { return orbital_frame_at(*craft.orbit, at_s).q_IO; };
+  const Vec3<double> omega_B = (0.5 / h) * rotation_vector(attitude(t - h), attitude(t + h));
+  const RigidBody<double> body(craft.inertia_body_kg_m2);
+  craft.initial = make_state(attitude(t), rotate(attitude(t), body.momentum(omega_B)));
+  const Fleet fleet({craft}, "coadjoint_rk4", StepLimits{});
+  for (const double rate : pointing(fleet.vehicles()[0], t).omega_B_to_O_B_rad_s) {
+    EXPECT_NEAR(rate, 0, 1e-9);
+  }
+  EXPECT_GT(norm(omega_B - orbital_frame(motion_at(*craft.orbit, t)).omega_O), 1e-7);
+}
+
 }  // namespace
 }  // namespace adstar::runtime
