@@ -80,7 +80,7 @@ class FakeClock {
 };
 
 TEST(Step, repeats_one_request_until_its_final_answer) {
-  const auto place = own_place(110);
+  const auto place = own_place(50);
   FakeClock clock(place);
   clock.reply = [&](const adstar_StepRequest& request) {
     if (clock.heard.size() > 2) {
@@ -100,7 +100,7 @@ TEST(Step, repeats_one_request_until_its_final_answer) {
 }
 
 TEST(Step, accepted_keeps_it_waiting_beyond_its_timeout) {
-  const auto place = own_place(111);
+  const auto place = own_place(51);
   FakeClock clock(place);
   const auto begun = std::chrono::steady_clock::now();
   clock.reply = [&](const adstar_StepRequest& request) {
@@ -113,7 +113,7 @@ TEST(Step, accepted_keeps_it_waiting_beyond_its_timeout) {
 }
 
 TEST(Step, a_refusal_is_exit_code_3_and_a_sentence) {
-  const auto place = own_place(112);
+  const auto place = own_place(52);
   FakeClock clock(place);
   clock.reply = [&](const adstar_StepRequest& request) {
     clock.answer(request, adstar_STEP_REFUSED, adstar_STEP_REFUSAL_NOT_STANDING);
@@ -124,7 +124,7 @@ TEST(Step, a_refusal_is_exit_code_3_and_a_sentence) {
 }
 
 TEST(Step, an_interruption_is_exit_code_3) {
-  const auto place = own_place(113);
+  const auto place = own_place(53);
   FakeClock clock(place);
   clock.reply = [&](const adstar_StepRequest& request) {
     clock.answer(request, adstar_STEP_INTERRUPTED);
@@ -136,7 +136,7 @@ TEST(Step, an_interruption_is_exit_code_3) {
 }
 
 TEST(Step, a_silent_daemon_is_exit_code_4) {
-  const auto place = own_place(114);
+  const auto place = own_place(54);
   FakeClock clock(place);
   Process client(at_place({"step", "--service", "fake", "--timeout", "400ms"}, place));
   EXPECT_EQ(clock.serve(client), 4);
@@ -146,7 +146,7 @@ TEST(Step, a_silent_daemon_is_exit_code_4) {
 }
 
 TEST(Step, finds_the_only_service_and_asks_which_of_several) {
-  const auto place = own_place(115);
+  const auto place = own_place(55);
   FakeClock clock(place);
   clock.reply = [&](const adstar_StepRequest& request) { clock.answer(request, adstar_STEP_DONE); };
   dds::Writer<adstar_ServiceStatus> statuses(clock.participant());
@@ -170,7 +170,7 @@ TEST(RunControl, each_verb_asks_for_its_action) {
   const std::pair<const char*, adstar_ControlAction> verbs[] = {{"pause", adstar_CONTROL_PAUSE},
                                                                 {"resume", adstar_CONTROL_RESUME},
                                                                 {"reset", adstar_CONTROL_RESET}};
-  const auto place = own_place(116);
+  const auto place = own_place(56);
   FakeClock clock(place);
   for (const auto& [verb, action] : verbs) {
     clock.controlled.clear();
@@ -183,7 +183,7 @@ TEST(RunControl, each_verb_asks_for_its_action) {
 }
 
 TEST(RunControl, set_state_and_set_inertia_carry_their_numbers) {
-  const auto place = own_place(117);
+  const auto place = own_place(57);
   FakeClock clock(place);
   {
     Process client(at_place({"set-state", "sat1", "--attitude", "1,0,-.5,0", "--rate",
