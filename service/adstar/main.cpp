@@ -77,8 +77,9 @@ int main(int argc, char** argv) {
       cli::add_monitor(program),   cli::add_list(program),        cli::add_timing(program),
       cli::add_dashboard(program), cli::add_replay(program),      cli::add_step(program),
       cli::add_pause(program),     cli::add_resume(program),      cli::add_reset(program),
-      cli::add_set_state(program), cli::add_set_inertia(program), cli::add_record(program),
-      cli::add_export(program),    cli::add_plot(program),        cli::add_completion(program)};
+      cli::add_set_state(program), cli::add_set_inertia(program), cli::add_set_target(program),
+      cli::add_record(program),    cli::add_export(program),      cli::add_plot(program),
+      cli::add_completion(program)};
   try {
     program.parse(arguments(argc, argv));
   } catch (const CLI::ParseError& error) {

@@ -33,6 +33,7 @@ Verb add_resume(CLI::App& program);
 Verb add_reset(CLI::App& program);
 Verb add_set_state(CLI::App& program);
 Verb add_set_inertia(CLI::App& program);
+Verb add_set_target(CLI::App& program);
 Verb add_record(CLI::App& program);
 Verb add_export(CLI::App& program);
 Verb add_plot(CLI::App& program);

@@ -36,11 +36,10 @@ void log_control(const runtime::ControlAnswerRecord& answer, std::string_view sp
   if (!limit.admit()) {
     return;
   }
-  const bool of_one = answer.action == runtime::ControlAction::set_state ||
-                      answer.action == runtime::ControlAction::set_inertia;
   const std::string what =
-      of_one ? fmt::format("{} of '{}'", dds::action_name(answer.action), spacecraft)
-             : std::string(dds::action_name(answer.action));
+      runtime::is_of_one_spacecraft(answer.action)
+          ? fmt::format("{} of '{}'", dds::action_name(answer.action), spacecraft)
+          : std::string(dds::action_name(answer.action));
   if (answer.refusal == runtime::ControlRefusal::none) {
     spdlog::info("run control: {} done, at step {}", what, answer.step);
   } else {

@@ -10,10 +10,6 @@
 namespace adstar::bridge {
 namespace {
 
-bool needs_spacecraft(const adstar_RunControl& request) {
-  return request.action == adstar_CONTROL_SET_STATE || request.action == adstar_CONTROL_SET_INERTIA;
-}
-
 /// Whoever asks repeats: a full ring loses nothing but time.
 template <class Ring, class Record>
 void hand_over(runtime::SharedSegment& segment, Ring& ring, Record record) {
@@ -51,10 +47,11 @@ void RequestIntake::take(const adstar_RunControl& request) {
   // An index that the scene does not have is refused by adstard under the name of its reason, in the
   // order of its own checks.
   constexpr std::uint32_t kNobody = 0xffff'ffffU;
-  const auto index = needs_spacecraft(request)
-                         ? directory_.spacecraft(dds::text_of(request.spacecraft))
-                         : std::optional<std::uint32_t>(0);
-  hand_over(segment_, segment_.controls, dds::to_record(request, index.value_or(kNobody)));
+  runtime::ControlRecord record = dds::to_record(request);
+  if (runtime::is_of_one_spacecraft(record.action)) {
+    record.spacecraft = directory_.spacecraft(dds::text_of(request.spacecraft)).value_or(kNobody);
+  }
+  hand_over(segment_, segment_.controls, record);
 }
 
 }  // namespace adstar::bridge

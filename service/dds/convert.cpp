@@ -52,6 +52,7 @@ static_assert(static_cast<int>(ControlAction::resume) == adstar_CONTROL_RESUME);
 static_assert(static_cast<int>(ControlAction::reset) == adstar_CONTROL_RESET);
 static_assert(static_cast<int>(ControlAction::set_state) == adstar_CONTROL_SET_STATE);
 static_assert(static_cast<int>(ControlAction::set_inertia) == adstar_CONTROL_SET_INERTIA);
+static_assert(static_cast<int>(ControlAction::set_target) == adstar_CONTROL_SET_TARGET);
 static_assert(static_cast<int>(ControlRefusal::none) == adstar_CONTROL_REFUSAL_NONE);
 static_assert(static_cast<int>(ControlRefusal::not_allowed) == adstar_CONTROL_REFUSAL_NOT_ALLOWED);
 static_assert(static_cast<int>(ControlRefusal::unknown_spacecraft) ==
@@ -63,6 +64,7 @@ static_assert(static_cast<int>(ControlRefusal::old_sequence) ==
               adstar_CONTROL_REFUSAL_OLD_SEQUENCE);
 static_assert(static_cast<int>(ControlRefusal::not_recorded) ==
               adstar_CONTROL_REFUSAL_NOT_RECORDED);
+static_assert(static_cast<int>(ControlRefusal::no_target) == adstar_CONTROL_REFUSAL_NO_TARGET);
 static_assert(runtime::kStartAtNextBeat == adstar_START_AT_NEXT_BEAT);
 
 namespace {
@@ -210,17 +212,17 @@ runtime::StepRequestRecord to_record(const adstar_StepRequest& sample) noexcept 
   return record;
 }
 
-runtime::ControlRecord to_record(const adstar_RunControl& sample,
-                                 std::uint32_t spacecraft) noexcept {
-  const adstar_Quaternion& q = sample.attitude_body_to_inertial;
+runtime::ControlRecord to_record(const adstar_RunControl& sample) noexcept {
   const adstar_Vector3& omega = sample.angular_velocity_body_rad_s;
   const adstar_InertiaTensor& J = sample.inertia_body_kg_m2;
   runtime::ControlRecord record;
   record.commander = {sample.commander.high, sample.commander.low};
   record.sequence = sample.sequence_number;
   record.action = static_cast<ControlAction>(number(sample.action));
-  record.spacecraft = spacecraft;
-  record.q_IB = {q.w, q.x, q.y, q.z};
+  const adstar_Quaternion& q = record.action == ControlAction::set_target
+                                   ? sample.attitude_body_to_frame
+                                   : sample.attitude_body_to_inertial;
+  record.attitude = {q.w, q.x, q.y, q.z};
   record.omega_B_rad_s = {omega.x, omega.y, omega.z};
   record.inertia_body_kg_m2 = {J.xx, J.yy, J.zz, J.xy, J.xz, J.yz};
   return record;

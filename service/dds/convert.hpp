@@ -52,10 +52,9 @@ runtime::CommandRecord to_record(const adstar_ThrusterCommand& sample, std::uint
 adstar_CommandStatus to_sample(const runtime::VerdictRecord& record, std::string_view spacecraft,
                                std::string_view actuator, std::string_view service) noexcept;
 
-/// Client to service. An action that this program does not know stays one.
+/// Client to service. An action that this program does not know stays one; which spacecraft is the caller's.
 runtime::StepRequestRecord to_record(const adstar_StepRequest& sample) noexcept;
-runtime::ControlRecord to_record(const adstar_RunControl& sample,
-                                 std::uint32_t spacecraft) noexcept;
+runtime::ControlRecord to_record(const adstar_RunControl& sample) noexcept;
 
 adstar_StepReply to_sample(const runtime::StepReplyRecord& record,
                            std::string_view service) noexcept;

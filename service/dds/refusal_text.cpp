@@ -65,6 +65,8 @@ const char* refusal_name(ControlRefusal refusal) noexcept {
       return "unknown_action";
     case ControlRefusal::not_recorded:
       return "not_recorded";
+    case ControlRefusal::no_target:
+      return "no_target";
   }
   return "unknown refusal";
 }
@@ -93,6 +95,8 @@ const char* refusal_text(ControlRefusal refusal) noexcept {
     case ControlRefusal::not_recorded:
       return "the run is recorded, and its journal takes no more; see the service's log: is the "
              "disk full?";
+    case ControlRefusal::no_target:
+      return "the scene gives this spacecraft no target to replace; add [spacecraft.pointing]";
   }
   return "a refusal that this program does not know; it is older than the service";
 }
@@ -109,6 +113,8 @@ const char* action_name(ControlAction action) noexcept {
       return "set_state";
     case ControlAction::set_inertia:
       return "set_inertia";
+    case ControlAction::set_target:
+      return "set_target";
   }
   return "unknown action";
 }

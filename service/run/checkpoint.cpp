@@ -9,7 +9,7 @@ namespace adstar::run {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'a', 'd', 's', 't', 'a', 'r', 'c', 'p'};
-constexpr std::uint64_t kFormat = 3;
+constexpr std::uint64_t kFormat = 4;
 
 struct Header {
   std::array<char, 8> magic = kMagic;

@@ -276,6 +276,15 @@ void Fleet::set_body(std::size_t vehicle, const RigidBody<double>& body) noexcep
   open_accounts(changed);
 }
 
+bool Fleet::set_target(std::size_t vehicle, const Quat<double>& attitude) noexcept {
+  Reference* const reference = vehicles_[vehicle].reference.get();
+  if (reference == nullptr || !reference->target) {
+    return false;
+  }
+  reference->target->attitude = normalised(attitude);
+  return true;
+}
+
 void Fleet::keep_start() {
   start_.reserve(vehicles_.size());
   for (const Vehicle& vehicle : vehicles_) {

@@ -106,6 +106,10 @@ class Fleet {
   /// Whether it leaves a body beside the wheels, and a motion within the range of double.
   bool can_have_body(std::size_t vehicle, const RigidBody<double>& body) const noexcept;
 
+  /// From now on pointing() is told against this attitude (of any length but zero), in the frame of the target
+  /// that it has. False when it has none. Between steps.
+  bool set_target(std::size_t vehicle, const Quat<double>& attitude) noexcept;
+
   /// Keeps a copy of what the vehicles are now, for reset().
   void keep_start();
   /// Back to what keep_start() found, no torque commanded. False when it was never called.

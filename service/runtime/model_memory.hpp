@@ -1,6 +1,6 @@
 #pragma once
-// What the models of a vehicle remember from step to step, as plain words: for snapshots, checkpoints and the way back
-// to a scene's start. Bodies and wheels are told apart from it (fleet_snapshot.hpp).
+// What the models of a vehicle remember from step to step, and the target it was given, as plain words: for snapshots,
+// checkpoints and the way back to a scene's start. Bodies and wheels are told apart from it (fleet_snapshot.hpp).
 
 #include <array>
 #include <bit>
@@ -19,6 +19,13 @@ void for_each_memory(AnyVehicle& vehicle, const Each& each) noexcept {
     if (auto* const coils = std::get_if<Magnetorquer<double>>(&torque)) {
       each(coils->settled);
     }
+  }
+  if constexpr (requires { vehicle.reference; }) {
+    if (vehicle.reference != nullptr && vehicle.reference->target) {
+      each(vehicle.reference->target->attitude);
+    }
+  } else if (vehicle.target) {
+    each(vehicle.target->attitude);
   }
   if (vehicle.linked != nullptr) {
     if constexpr (requires { vehicle.linked->state; }) {

@@ -322,15 +322,29 @@ struct StepReplyRecord {
 };
 
 /// Same values and order as ControlAction in idl/run.idl.
-enum class ControlAction : std::uint32_t { pause, resume, reset, set_state, set_inertia };
+enum class ControlAction : std::uint32_t {
+  pause,
+  resume,
+  reset,
+  set_state,
+  set_inertia,
+  set_target
+};
+
+/// The others are of the clock and the whole fleet.
+constexpr bool is_of_one_spacecraft(ControlAction action) noexcept {
+  return action == ControlAction::set_state || action == ControlAction::set_inertia ||
+         action == ControlAction::set_target;
+}
 
 /// One RunControl, its name resolved to an index. Not yet judged.
 struct ControlRecord {
   CommanderId commander;
   std::uint64_t sequence = 0;
   ControlAction action = ControlAction::pause;
-  std::uint32_t spacecraft = 0;  ///< of set_state and set_inertia
-  std::array<double, 4> q_IB{};  ///< w, x, y, z; of any length but zero
+  std::uint32_t spacecraft = 0;  ///< where the action is of one
+  /// w, x, y, z; of any length but zero. Of set_state q_IB, of set_target that in the target's frame.
+  std::array<double, 4> attitude{};
   std::array<double, 3> omega_B_rad_s{};
   std::array<double, 6> inertia_body_kg_m2{};  ///< xx, yy, zz, xy, xz, yz
   std::int64_t received_ns = 0;                ///< monotonic clock, by the bridge; 0: not stamped
@@ -346,7 +360,8 @@ enum class ControlRefusal : std::uint32_t {
   not_now,
   old_sequence,
   unknown_action,
-  not_recorded
+  not_recorded,
+  no_target
 };
 
 /// The answer to one RunControl.

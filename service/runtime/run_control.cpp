@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "service/scene/inertia.hpp"
 
@@ -13,14 +14,21 @@ bool all_finite(const std::array<double, N>& numbers) noexcept {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
+/// Nothing where it is no attitude.
+std::optional<Quat<double>> attitude_of(const ControlRecord& record) noexcept {
+  const auto& q = record.attitude;
+  const Quat<double> attitude{q[0], q[1], q[2], q[3]};
+  return all_finite(q) && attitude != Quat<double>{0.0, 0.0, 0.0, 0.0} ? std::optional(attitude)
+                                                                       : std::nullopt;
+}
+
 ControlRefusal set_state(const ControlRecord& record, Fleet& fleet) noexcept {
-  const Quat<double> q_IB{record.q_IB[0], record.q_IB[1], record.q_IB[2], record.q_IB[3]};
-  if (!all_finite(record.q_IB) || !all_finite(record.omega_B_rad_s) ||
-      q_IB == Quat<double>{0.0, 0.0, 0.0, 0.0}) {
+  const auto q_IB = attitude_of(record);
+  if (!q_IB || !all_finite(record.omega_B_rad_s)) {
     return ControlRefusal::bad_state;
   }
   const auto& omega = record.omega_B_rad_s;
-  return fleet.set_motion(record.spacecraft, q_IB, {omega[0], omega[1], omega[2]})
+  return fleet.set_motion(record.spacecraft, *q_IB, {omega[0], omega[1], omega[2]})
              ? ControlRefusal::none
              : ControlRefusal::bad_state;
 }
@@ -41,7 +49,19 @@ ControlRefusal set_inertia(const ControlRecord& record, Fleet& fleet) noexcept {
   return ControlRefusal::none;
 }
 
+ControlRefusal set_target(const ControlRecord& record, Fleet& fleet) noexcept {
+  const auto attitude = attitude_of(record);
+  if (!attitude) {
+    return ControlRefusal::bad_state;
+  }
+  return fleet.set_target(record.spacecraft, *attitude) ? ControlRefusal::none
+                                                        : ControlRefusal::no_target;
+}
+
 ControlRefusal act(const ControlRecord& record, Fleet& fleet) noexcept {
+  if (is_of_one_spacecraft(record.action) && record.spacecraft >= fleet.vehicles().size()) {
+    return ControlRefusal::unknown_spacecraft;
+  }
   switch (record.action) {
     case ControlAction::pause:
     case ControlAction::resume:
@@ -49,12 +69,11 @@ ControlRefusal act(const ControlRecord& record, Fleet& fleet) noexcept {
     case ControlAction::reset:
       return fleet.reset() ? ControlRefusal::none : ControlRefusal::not_allowed;
     case ControlAction::set_state:
+      return set_state(record, fleet);
     case ControlAction::set_inertia:
-      if (record.spacecraft >= fleet.vehicles().size()) {
-        return ControlRefusal::unknown_spacecraft;
-      }
-      return record.action == ControlAction::set_state ? set_state(record, fleet)
-                                                       : set_inertia(record, fleet);
+      return set_inertia(record, fleet);
+    case ControlAction::set_target:
+      return set_target(record, fleet);
   }
   return ControlRefusal::unknown_action;
 }

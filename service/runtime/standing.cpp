@@ -129,6 +129,7 @@ void Tick::follow(ControlAction action) noexcept {
       break;
     case ControlAction::set_state:
     case ControlAction::set_inertia:
+    case ControlAction::set_target:
       break;
   }
 }

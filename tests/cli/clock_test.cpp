@@ -210,6 +210,19 @@ TEST(RunControl, set_state_and_set_inertia_carry_their_numbers) {
   EXPECT_EQ(J.yz, 0.3);
 }
 
+TEST(RunControl, set_target_carries_its_attitude_and_says_where_there_is_none_to_replace) {
+  const auto place = own_place(58);
+  FakeClock clock(place);
+  clock.refusal = adstar_CONTROL_REFUSAL_NO_TARGET;
+  Process client(
+      at_place({"set-target", "sat1", "--attitude", "1,0,-.5,0", "--service", "fake"}, place));
+  EXPECT_EQ(clock.serve(client), 3) << client.err();
+  expect_golden("set_target_refused", client.out());
+  ASSERT_FALSE(clock.controlled.empty());
+  EXPECT_EQ(clock.controlled[0].action, adstar_CONTROL_SET_TARGET);
+  EXPECT_EQ(clock.controlled[0].attitude_body_to_frame.y, -0.5);
+}
+
 TEST(RunControl, numbers_that_are_none_are_a_usage_error) {
   for (const char* wrong : {"1,2", "1,2,3,4", "1,2,x", "1,2,nan", "1, 2,3", ""}) {
     const Outcome outcome = client({"set-inertia", "sat1", "--inertia", wrong});

@@ -22,7 +22,8 @@ TEST(Completion, is_a_script_that_bash_accepts) {
 TEST(Completion, offers_verbs_first) {
   EXPECT_EQ(completed("adstar ''"),
             "propagate check trade reproduce torque wheel dipole fire joint monitor list timing "
-            "dashboard replay step pause resume reset set-state set-inertia record export plot "
+            "dashboard replay step pause resume reset set-state set-inertia set-target record "
+            "export plot "
             "completion --help -h --version\n");
   EXPECT_EQ(completed("adstar pro"), "propagate\n");
 }

@@ -19,8 +19,8 @@ INSTANTIATE_TEST_SUITE_P(AllVerbs, HelpOf,
                          ::testing::Values("propagate", "check", "trade", "reproduce", "torque",
                                            "wheel", "dipole", "fire", "joint", "monitor", "list",
                                            "timing", "dashboard", "step", "pause", "resume",
-                                           "reset", "set-state", "set-inertia", "record", "export",
-                                           "plot", "completion"),
+                                           "reset", "set-state", "set-inertia", "set-target",
+                                           "record", "export", "plot", "completion"),
                          [](const auto& the) {
                            std::string name = the.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -292,14 +292,16 @@ TEST(DdsConvert, requests_to_the_clock_keep_every_number) {
   control.attitude_body_to_inertial = {0.1, 0.2, 0.3, 0.4};
   control.angular_velocity_body_rad_s = {1, 2, 3};
   control.inertia_body_kg_m2 = {11, 12, 13, 14, 15, 16};
-  const runtime::ControlRecord record = to_record(control, 5);
+  control.attitude_body_to_frame = {21, 22, 23, 24};
+  const runtime::ControlRecord record = to_record(control);
   EXPECT_EQ(record.commander, (runtime::CommanderId{7, 8}));
   EXPECT_EQ(record.sequence, 9U);
   EXPECT_EQ(record.action, runtime::ControlAction::set_inertia);
-  EXPECT_EQ(record.spacecraft, 5U);
-  EXPECT_EQ(record.q_IB, (std::array<double, 4>{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(record.attitude, (std::array<double, 4>{0.1, 0.2, 0.3, 0.4}));
   EXPECT_EQ(record.omega_B_rad_s, (std::array<double, 3>{1, 2, 3}));
   EXPECT_EQ(record.inertia_body_kg_m2, (std::array<double, 6>{11, 12, 13, 14, 15, 16}));
+  control.action = adstar_CONTROL_SET_TARGET;
+  EXPECT_EQ(to_record(control).attitude, (std::array<double, 4>{21, 22, 23, 24}));
 }
 
 TEST(RateLimit, drops_the_rest_of_a_second_and_then_says_how_many) {

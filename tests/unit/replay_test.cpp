@@ -11,14 +11,14 @@ runtime::ControlRecord control(std::uint64_t sequence, runtime::ControlAction ac
   record.commander = {3, 4};
   record.sequence = sequence;
   record.action = action;
-  record.spacecraft = 1;
-  record.q_IB = {1, 2, 3, 4};
+  record.spacecraft = action == runtime::ControlAction::set_target ? 2 : 1;
+  record.attitude = {1, 2, 3, 4};
   record.omega_B_rad_s = {0.1, -0.2, 0.3};
   record.inertia_body_kg_m2 = {1.1, 1.2, 1.3, 0.01, 0, 0};
   return record;
 }
 
-/// Another inertia at 130, a reset at 170, another state at 40 after it.
+/// Another inertia at 130, a reset at 170, another state and another target at 40 after it.
 void fly_with_controls(RecordedFlight& flight, std::uint64_t until_after_reset) {
   if (flight.at() < runtime::Instant{0, 130}) {
     flight.run_to(130);
@@ -31,11 +31,12 @@ void fly_with_controls(RecordedFlight& flight, std::uint64_t until_after_reset) 
   flight.run_to(std::min<std::uint64_t>(40, until_after_reset));
   if (until_after_reset > 40) {
     flight.control(control(3, runtime::ControlAction::set_state));
+    flight.control(control(4, runtime::ControlAction::set_target));
     flight.run_to(until_after_reset);
   }
 }
 
-TEST_F(KilledRun, goes_on_over_changed_inertia_resets_and_set_states) {
+TEST_F(KilledRun, goes_on_over_changed_inertia_resets_set_states_and_targets) {
   for (const bool keep_all : {false, true}) {
     for (const std::uint64_t killed_after : {0U, 1U, 40U, 41U, 90U}) {
       std::error_code ignored;

@@ -8,6 +8,7 @@
 
 #include "adstar/integrators/all.hpp"
 #include "service/batch/kernels.hpp"
+#include "service/runtime/fleet_snapshot.hpp"
 #include "tests/support/gate_harness.hpp"
 
 namespace adstar::runtime {
@@ -32,7 +33,7 @@ ControlRecord state(std::uint32_t spacecraft, std::array<double, 4> q,
   ControlRecord record;
   record.action = ControlAction::set_state;
   record.spacecraft = spacecraft;
-  record.q_IB = q;
+  record.attitude = q;
   record.omega_B_rad_s = omega;
   return record;
 }
@@ -196,6 +197,55 @@ TEST(SetState, refuses_what_is_no_motion) {
   EXPECT_EQ(apply_control(state(7, {1, 0, 0, 0}, {}), fleet).refusal,
             ControlRefusal::unknown_spacecraft);
   EXPECT_EQ(fleet.vehicles()[0].state, before);
+}
+
+ControlRecord target(std::uint32_t spacecraft, std::array<double, 4> attitude) {
+  ControlRecord record;
+  record.action = ControlAction::set_target;
+  record.spacecraft = spacecraft;
+  record.attitude = attitude;
+  return record;
+}
+
+TEST(SetTarget, is_what_the_pointing_error_is_told_against_and_moves_nothing) {
+  Fleet fleet({test::in_space(make_craft(0))}, "coadjoint_rk4", StepLimits{});
+  const Vehicle& vehicle = fleet.vehicles()[0];
+  const State<double> before = vehicle.state;
+  const PointingRecord told = pointing(vehicle, 7);
+  const auto& q_OB = told.q_OB;
+  ASSERT_EQ(
+      apply_control(target(0, {3 * q_OB[0], 3 * q_OB[1], 3 * q_OB[2], 3 * q_OB[3]}), fleet).refusal,
+      ControlRefusal::none);
+  for (const double error : pointing(vehicle, 7).error_B_rad) {
+    EXPECT_NEAR(error, 0, 1e-15) << "in its orbital frame it is the attitude that it has";
+  }
+  EXPECT_GT(std::hypot(told.error_B_rad[0], told.error_B_rad[1], told.error_B_rad[2]), 0.1);
+  EXPECT_EQ(vehicle.state, before);
+}
+
+TEST(SetTarget, is_kept_by_a_snapshot_and_taken_back_by_a_reset) {
+  const std::vector<scene::Spacecraft> craft{test::in_space(make_craft(0))};
+  Fleet fleet(craft, "coadjoint_rk4", StepLimits{});
+  fleet.keep_start();
+  const auto error = [](const Fleet& told) { return pointing(told.vehicles()[0], 0).error_B_rad; };
+  const auto at_start = error(fleet);
+  ASSERT_EQ(apply_control(target(0, {1, 2, 3, 4}), fleet).refusal, ControlRefusal::none);
+  const auto commanded = error(fleet);
+  EXPECT_NE(commanded, at_start);
+  Fleet other(craft, "coadjoint_rk4", StepLimits{});
+  ASSERT_TRUE(restore(other, state_of(fleet)));
+  EXPECT_EQ(error(other), commanded);
+  ASSERT_TRUE(fleet.reset());
+  EXPECT_EQ(error(fleet), at_start);
+}
+
+TEST(SetTarget, refuses_what_is_no_attitude_and_a_spacecraft_without_a_target) {
+  Fleet fleet({test::in_space(make_craft(0)), make_craft(0)}, "coadjoint_rk4", StepLimits{});
+  EXPECT_EQ(apply_control(target(0, {0, 0, 0, 0}), fleet).refusal, ControlRefusal::bad_state);
+  EXPECT_EQ(apply_control(target(0, {1, kNaN, 0, 0}), fleet).refusal, ControlRefusal::bad_state);
+  EXPECT_EQ(apply_control(target(1, {1, 0, 0, 0}), fleet).refusal, ControlRefusal::no_target);
+  EXPECT_EQ(apply_control(target(2, {1, 0, 0, 0}), fleet).refusal,
+            ControlRefusal::unknown_spacecraft);
 }
 
 TEST(Reset, flies_the_same_bits_again) {

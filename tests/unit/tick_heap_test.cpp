@@ -98,12 +98,13 @@ TEST(TickHeap, is_not_touched_by_those_who_hold_the_clock) {
   MappedSegment segment = MappedSegment::create(2);
   Tick tick(scene, segment);
   std::uint64_t sequence = 0;
-  for (const ControlAction action : {ControlAction::set_state, ControlAction::set_inertia,
-                                     ControlAction::reset, ControlAction::pause}) {
+  for (const ControlAction action :
+       {ControlAction::set_state, ControlAction::set_inertia, ControlAction::set_target,
+        ControlAction::reset, ControlAction::pause}) {
     ControlRecord record;
     record.sequence = ++sequence;
     record.action = action;
-    record.q_IB = {1, 0, 0, 0.5};
+    record.attitude = {1, 0, 0, 0.5};
     record.omega_B_rad_s = {0.1, 0.2, 0.3};
     record.inertia_body_kg_m2 = {1.5, 2.0, 1.25, 0.1, -0.05, 0.2};
     ASSERT_TRUE(segment->controls.push(record));

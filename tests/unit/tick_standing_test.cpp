@@ -225,8 +225,9 @@ TEST(RunControl, is_refused_unless_the_scene_allows_it) {
   scene.service.run_control = false;
   Running the(scene);
   the.step(2);
-  for (const ControlAction action : {ControlAction::pause, ControlAction::reset,
-                                     ControlAction::set_state, ControlAction::set_inertia}) {
+  for (const ControlAction action :
+       {ControlAction::pause, ControlAction::reset, ControlAction::set_state,
+        ControlAction::set_inertia, ControlAction::set_target}) {
     EXPECT_EQ(the.control(action).refusal, ControlRefusal::not_allowed);
   }
   EXPECT_EQ(the.step(0).step, 2U);
@@ -333,8 +334,8 @@ TEST(RunControl, is_written_down_with_its_step_and_outcome_where_it_changes_the_
   EXPECT_EQ(the.control(ControlAction::pause).refusal, ControlRefusal::none);
   EXPECT_EQ(hot->ring.size(), 0U) << "pause is the clock's alone";
   the.step(2);
-  for (const ControlAction action :
-       {ControlAction::set_state, ControlAction::set_inertia, ControlAction::reset}) {
+  for (const ControlAction action : {ControlAction::set_state, ControlAction::set_inertia,
+                                     ControlAction::set_target, ControlAction::reset}) {
     const ControlRefusal outcome = the.control(action).refusal;
     const auto recorded = hot->ring.pop();
     ASSERT_TRUE(recorded.has_value());

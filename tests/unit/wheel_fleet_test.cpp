@@ -89,7 +89,7 @@ TEST(WheelFleet, reset_brings_wheels_and_orders_back) {
 ControlRecord control(ControlAction action) {
   ControlRecord record;
   record.action = action;
-  record.q_IB = {1, 0, 0, 0};
+  record.attitude = {1, 0, 0, 0};
   record.omega_B_rad_s = {0.1, -0.2, 0.3};
   record.inertia_body_kg_m2 = {1.5, 2.0, 1.25, 0.1, -0.05, 0.2};
   return record;
