@@ -25,6 +25,22 @@ adstar_CommanderId new_commander() {
   return {kRos2Commander, std::uint64_t{random()} << 32U | random()};
 }
 
+void tell(std::string_view spacecraft, std::string_view what) {
+  // A node that is wrong all the time does not hide what another hears once. Two threads log.
+  static std::mutex mutex;
+  static std::map<std::string, dds::RateLimit, std::less<>> limits;
+  std::unique_lock lock(mutex);
+  const auto known = limits.find(spacecraft);
+  dds::RateLimit& limit = known != limits.end()
+                              ? known->second
+                              : limits.try_emplace(std::string(spacecraft), 1).first->second;
+  lock.unlock();
+  if (const auto dropped = limit.admit()) {
+    spdlog::warn("ROS 2: a torque for '{}' is {}{}", spacecraft, what,
+                 *dropped > 0 ? fmt::format(" ({} more since the last one told)", *dropped) : "");
+  }
+}
+
 }  // namespace
 
 Ros2Target ros2_target(const scene::Spacecraft& spacecraft) {
@@ -87,19 +103,7 @@ adstar_TorqueCommand Ros2Torques::command(const ros2::WrenchStamped& wrench,
 }
 
 void log_refused_ros2(std::string_view spacecraft, std::string_view why) {
-  // A node that is wrong all the time does not hide what another hears once. Two threads log.
-  static std::mutex mutex;
-  static std::map<std::string, dds::RateLimit, std::less<>> limits;
-  std::unique_lock lock(mutex);
-  const auto known = limits.find(spacecraft);
-  dds::RateLimit& limit = known != limits.end()
-                              ? known->second
-                              : limits.try_emplace(std::string(spacecraft), 1).first->second;
-  lock.unlock();
-  if (const auto dropped = limit.admit()) {
-    spdlog::warn("ROS 2: a torque for '{}' is not obeyed: {}{}", spacecraft, why,
-                 *dropped > 0 ? fmt::format(" ({} more since the last one told)", *dropped) : "");
-  }
+  tell(spacecraft, fmt::format("not obeyed: {}", why));
 }
 
 void log_if_of_ros2(const runtime::VerdictRecord& record, std::string_view spacecraft) {
@@ -111,6 +115,9 @@ void log_if_of_ros2(const runtime::VerdictRecord& record, std::string_view space
     log_refused_ros2(spacecraft, dds::reason_text(record.reason));
   } else if (record.verdict == Verdict::outranked) {
     log_refused_ros2(spacecraft, "a commander of a higher priority has the actuator");
+  } else if (record.verdict == Verdict::clamped) {
+    tell(spacecraft,
+         fmt::format("scaled to the actuator's limit: {} N m", fmt::join(record.value, ", ")));
   }
 }
 

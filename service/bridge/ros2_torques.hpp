@@ -78,7 +78,7 @@ class Ros2Torques {
 /// For the log, at most a line a second and spacecraft: who sends a wrench hears nothing of CommandStatus.
 void log_refused_ros2(std::string_view spacecraft, std::string_view why);
 
-/// The same when the gate would not have it.
+/// The same when the gate would not have it, or not all of it.
 void log_if_of_ros2(const runtime::VerdictRecord& record, std::string_view spacecraft);
 
 }  // namespace adstar::bridge

@@ -31,7 +31,7 @@ QosHandle make_qos(const Qos& qos) {
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   }
   // Nodes of ROS 2 since Iron look here for a hash of the type, and warn of each endpoint that has no user data at all
-  // (rmw_cyclonedds, issue 567); without the key "typehash" they are content.
+  // (rmw_dds_common, pull request 74); without the key "typehash" they are content.
   dds_qset_userdata(made.get(), ";", 1);
   // Shared ownership, and automatic liveliness but between daemons: every other setting silently fails
   // to match a default peer.

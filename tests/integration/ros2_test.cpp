@@ -270,6 +270,16 @@ TEST_F(Ros2, moves_nothing_with_a_force_in_a_strange_frame_or_by_what_is_no_numb
   }
 }
 
+TEST_F(Ros2, is_told_in_the_log_of_a_torque_that_the_actuator_cannot_give) {
+  ASSERT_TRUE(push("sat1/body", {99, 0, 0})) << daemon_.log();
+  ASSERT_TRUE(step(1)) << daemon_.log();
+  EXPECT_TRUE(ground_.until([&] { return newest_answer().verdict == adstar_VERDICT_CLAMPED; }));
+  EXPECT_TRUE(eventually([&] {
+    return daemon_.log().find("a torque for 'sat1' is scaled to the actuator's limit: ") !=
+           std::string::npos;
+  })) << daemon_.log();
+}
+
 TEST_F(Ros2, is_heard_by_the_next_bridge_too) {
   ASSERT_TRUE(push("inertial", {0, 0, 0.5})) << daemon_.log();
   const adstar_CommanderId before = newest_answer().commander;
