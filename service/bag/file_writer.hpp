@@ -4,7 +4,8 @@
 //
 // Messages are kept in transactions over a write-ahead log: after kill -9 there is all that was
 // committed. close() merges the log, so that what is left is one plain file; where somebody reads it
-// just then, the log stays beside it until they close it.
+// just then, the log stays beside it until they close it, and the file is one that wants a log until Recording::ending()
+// or mend() makes it plain.
 
 #include <cstddef>
 #include <cstdint>

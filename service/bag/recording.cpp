@@ -148,9 +148,11 @@ Metadata Recording::count() const {
 }
 
 Recording::Ending Recording::ending() const {
-  if (DirectoryLock(directory_, DirectoryLock::Kind::mender).refused()) {
+  const DirectoryLock lock(directory_, DirectoryLock::Kind::mender);
+  if (lock.refused()) {
     return Ending::still_recorded;
   }
+  leave_logs();
   const auto told = messages_told(directory_);
   if (!told) {
     return Ending::cut_off;
@@ -167,11 +169,22 @@ Recording::Ending Recording::ending() const {
   return there == *told ? Ending::ended : Ending::cut_off;
 }
 
+void Recording::leave_logs() const {
+  for (const fs::path& path : files_) {
+    try {
+      Database(path, Database::Mode::open).leave_log();
+    } catch (const Error&) {
+      // Whoever reads it next says what is wrong.
+    }
+  }
+}
+
 bool Recording::mend() const {
   const DirectoryLock lock(directory_, DirectoryLock::Kind::mender);
   if (lock.refused()) {
     return false;
   }
+  leave_logs();
   const Metadata metadata = count();
   try {
     write_metadata(metadata, directory_);

@@ -43,12 +43,16 @@ class Recording {
     still_recorded,
     cut_off,  ///< no metadata.yaml, or one that does not have what the files have
   };
+  /// Where nobody holds it, files that were left with a log (somebody read them as they were ended, or their recorder was
+  /// killed) become plain ones, if they may be written: who may not write there can only read those.
   Ending ending() const;
   /// Writes metadata.yaml from what the files have; false when it cannot be written there, or is its
   /// recorder's to write.
   bool mend() const;
 
  private:
+  void leave_logs() const;
+
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> files_;
   std::function<void(double)> watcher_ = [](double /*part*/) {};

@@ -36,6 +36,14 @@ class Bags : public ::testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
+  /// By the version of its format (sqlite.org/fileformat2.html, 1.3.3): 2 with a write-ahead log, 1 without.
+  bool wants_log(const std::string& name) const {
+    constexpr std::size_t kWriteVersion = 18, kReadVersion = 19;
+    const std::string file = text_of(name);
+    EXPECT_EQ(file.at(kWriteVersion), file.at(kReadVersion));
+    return file.at(kWriteVersion) == 2;
+  }
+
   static std::vector<std::byte> bytes(std::size_t count, int first) {
     std::vector<std::byte> block(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -287,6 +295,23 @@ TEST_F(Bags, whoever_reads_stops_neither_a_new_file_nor_the_end) {
   for (const char* name : {"bag_0.db3-wal", "bag_1.db3-wal"}) {
     EXPECT_FALSE(fs::exists(home_ / "bag" / name)) << "merged by whoever closed last";
   }
+  EXPECT_TRUE(wants_log("bag_0.db3"));
+  EXPECT_EQ(Recording(home_ / "bag").ending(), Recording::Ending::ended);
+  EXPECT_FALSE(wants_log("bag_0.db3"));
+  EXPECT_FALSE(wants_log("bag_1.db3"));
+}
+
+TEST_F(Bags, what_a_killed_recorder_left_is_plain_files_once_it_is_mended) {
+  {
+    RollingWriter killed = writer();
+    killed.add(0, 1, bytes(3, 1));
+    killed.commit();
+  }
+  EXPECT_TRUE(wants_log("bag_0.db3"));
+  const Recording recording(home_ / "bag");
+  EXPECT_TRUE(recording.mend());
+  EXPECT_FALSE(wants_log("bag_0.db3"));
+  EXPECT_EQ(read().size(), 1U);
 }
 
 TEST_F(Bags, an_empty_recording_is_one) {
