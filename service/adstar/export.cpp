@@ -136,7 +136,8 @@ scene::TaiDate epoch_of(const Options& options) {
 void export_aem(const bag::Recording& recording, const Options& options, Output& output) {
   report::AemHeader header;
   header.epoch = epoch_of(options);
-  const Runs runs = runs_of<adstar_AttitudeState>(recording);
+  const NewVoices voices = new_voices_in(recording);
+  const Runs runs = runs_of<adstar_AttitudeState>(recording, voices);
   header.object_name = only_spacecraft(recording, runs, options);
   header.object_id = options.object_id;
   header.originator = options.originator;

@@ -1,9 +1,19 @@
 #include "service/adstar/last_run.hpp"
 
-namespace adstar::cli {
+#include <algorithm>
+#include <utility>
 
-void RunFinder::add(std::int64_t time_ns) {
+namespace adstar::cli {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+}  // namespace
+
+void RunFinder::add(const Heard& sample) {
   const std::uint64_t number = count_++;
+  const std::int64_t before_received_ns = std::exchange(received_ns_, sample.received_ns);
+  const std::int64_t time_ns = sample.time_ns;
   if (number == 0) {
     run_ = {0, 1, time_ns, time_ns};
     return;
@@ -12,23 +22,50 @@ void RunFinder::add(std::int64_t time_ns) {
   if (time_ns >= run_.last_ns) {
     if (detour_ && is_new_run(*detour_) &&
         time_ns - detour_->last_ns <= detour_->last_ns - detour_->first_ns) {
-      run_.begin = detour_->begin;
-      run_.first_ns = detour_->first_ns;
+      begin_run_at(*detour_);
     }
     run_.last_ns = time_ns;
     detour_.reset();
   } else if (detour_ && time_ns >= detour_->last_ns) {
+    if (detour_->last_ns == detour_->first_ns) {
+      detour_->second_ns = time_ns;
+    }
     detour_->last_ns = time_ns;
   } else {
     if (detour_ && is_new_run(*detour_)) {
-      run_ = last_run();
+      begin_run_at(*detour_);
     }
-    detour_ = Detour{number, time_ns, time_ns};
+    detour_ = Detour{number,
+                     time_ns,
+                     time_ns,
+                     time_ns,
+                     std::string(sample.service),
+                     before_received_ns,
+                     sample.received_ns};
   }
 }
 
+void RunFinder::begin_run_at(const Detour& detour) {
+  last_voice_ = new_voice(detour).value_or(last_voice_);
+  run_ = {detour.begin, run_.end, detour.first_ns, detour.last_ns};
+}
+
 bool RunFinder::is_new_run(const Detour& detour) const {
-  return detour.last_ns > detour.first_ns && detour.first_ns < run_.last_ns / 2;
+  return detour.last_ns > detour.first_ns && detour.first_ns < run_.last_ns / 2 &&
+         has_new_voice(detour);
+}
+
+bool RunFinder::has_new_voice(const Detour& detour) const {
+  return voices_->know(detour.service)
+             ? new_voice(detour).has_value()
+             : detour.first_ns <= kSecond_ns + (detour.second_ns - detour.first_ns);
+}
+
+/// A status is said once a second, and the topics are taken off the bus one after the other. The clock may have been set
+/// back just then.
+std::optional<std::uint64_t> RunFinder::new_voice(const Detour& detour) const {
+  const auto [earlier, later] = std::minmax(detour.before_received_ns, detour.received_ns);
+  return voices_->next(detour.service, last_voice_, earlier - kSecond_ns, later + 3 * kSecond_ns);
 }
 
 RunSpan RunFinder::last_run() const {

@@ -6,11 +6,17 @@
 // or resumes repeats some steps. So samples that are older than the newest before them are a detour. It is a new
 // run when
 //   - it has two samples or more, in rising order,
-//   - it begins before half of that newest time (a run begins at 0; what is repeated is near the newest), and
+//   - it begins before half of that newest time (a run begins at 0; what is repeated is near the newest),
+//   - about when it began somebody was first heard as the service that says it (new_voices.hpp): each begins one run, and
 //   - it goes on from there: it does not end with a leap, longer than all of it, back to the newer times.
+// Where the service's status was never heard, the third is that it begins at about time 0.
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
+
+#include "service/adstar/new_voices.hpp"
 
 namespace adstar::cli {
 
@@ -20,21 +26,39 @@ struct RunSpan {
   std::int64_t first_ns = 0, last_ns = 0;
 };
 
+/// What there is to know of a sample.
+struct Heard {
+  std::int64_t time_ns;      ///< simulation time
+  std::string_view service;  ///< whoever said it
+  std::int64_t received_ns;
+};
+
 class RunFinder {
  public:
-  void add(std::int64_t time_ns);
+  /// The voices, all of the recording, must outlive it.
+  explicit RunFinder(const NewVoices& voices) : voices_(&voices) {}
+
+  void add(const Heard& sample);
   /// Of those so far; empty when there was none.
   RunSpan last_run() const;
 
  private:
   struct Detour {
     std::uint64_t begin = 0;
-    std::int64_t first_ns = 0, last_ns = 0;
+    std::int64_t first_ns = 0, second_ns = 0, last_ns = 0;
+    std::string service;
+    std::int64_t before_received_ns = 0, received_ns = 0;  ///< of what came before it, of its first
   };
   bool is_new_run(const Detour& detour) const;
+  bool has_new_voice(const Detour& detour) const;
+  std::optional<std::uint64_t> new_voice(const Detour& detour) const;
+  void begin_run_at(const Detour& detour);
 
+  const NewVoices* voices_;
   std::uint64_t count_ = 0;
+  std::uint64_t last_voice_ = 0;  ///< the number of the one that began this run
   RunSpan run_;
+  std::int64_t received_ns_ = 0;  ///< of the newest sample
   std::optional<Detour> detour_;
 };
 

@@ -100,8 +100,9 @@ Names drawn(const Names& known, const Options& options) {
 
 /// Of those who are drawn, still empty.
 Histories chosen_histories(const bag::Recording& recording, const Options& options) {
-  const Runs momentum = runs_of<adstar_MomentumState>(recording);
-  const Runs attitude = runs_of<adstar_AttitudeState>(recording);
+  const NewVoices voices = new_voices_in(recording);
+  const Runs momentum = runs_of<adstar_MomentumState>(recording, voices);
+  const Runs attitude = runs_of<adstar_AttitudeState>(recording, voices);
   Names known;
   for (const Runs* runs : {&momentum, &attitude}) {
     for (const auto& [name, run] : *runs) {

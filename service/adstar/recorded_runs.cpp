@@ -6,6 +6,15 @@
 
 namespace adstar::cli {
 
+NewVoices new_voices_in(const bag::Recording& recording) {
+  NewVoices voices;
+  samples::for_each_sample<adstar_ServiceStatus>(
+      recording, [&](const adstar_ServiceStatus& status, std::int64_t received_ns) {
+        voices.hear(status, received_ns);
+      });
+  return voices;
+}
+
 void say_left_out(const LeftOut& left_out, const char* verb) {
   if (left_out.before > 0) {
     fmt::print(stderr,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "service/adstar/last_run.hpp"
+#include "service/adstar/new_voices.hpp"
 #include "service/dds/convert.hpp"
 #include "service/samples/recorded_topics.hpp"
 
@@ -14,11 +15,16 @@ namespace adstar::cli {
 /// By spacecraft.
 using Runs = std::map<std::string, RunFinder, std::less<>>;
 
+/// Of all that its statuses tell of.
+NewVoices new_voices_in(const bag::Recording& recording);
+
+/// The voices must outlive them.
 template <class T>
-Runs runs_of(const bag::Recording& recording) {
+Runs runs_of(const bag::Recording& recording, const NewVoices& voices) {
   Runs runs;
-  samples::for_each_sample<T>(recording, [&](const T& sample, std::int64_t /*received_ns*/) {
-    runs[std::string(dds::text_of(sample.spacecraft))].add(sample.time_ns);
+  samples::for_each_sample<T>(recording, [&](const T& sample, std::int64_t received_ns) {
+    runs.try_emplace(std::string(dds::text_of(sample.spacecraft)), voices)
+        .first->second.add({sample.time_ns, dds::text_of(sample.service), received_ns});
   });
   return runs;
 }

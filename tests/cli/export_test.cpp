@@ -104,6 +104,43 @@ TEST(ExportAem, is_of_the_last_run_where_a_daemon_began_anew) {
   EXPECT_NE(aem.err.find("500 samples before it are not"), std::string::npos) << aem.err;
 }
 
+adstar_ServiceStatus status_of(std::uint64_t instance, std::string_view service = "fly") {
+  adstar_ServiceStatus status{};
+  dds::set_text(status.service, service);
+  status.instance_low = instance;
+  return status;
+}
+
+TEST(ExportAem, is_of_all_that_was_flown_though_a_primary_that_had_hung_speaks_last) {
+  MadeRecording recording;
+  recording.add(status_of(1));
+  recording.add(status_of(2, "fly.standby"));
+  recording.fly(1, 200);
+  recording.add(status_of(2));
+  recording.fly(201, 500);
+  recording.add(status_of(1));
+  recording.fly(3, 5);
+  recording.finish();
+  const Outcome aem = export_aem(recording);
+  ASSERT_EQ(aem.code, 0) << aem.err;
+  EXPECT_EQ(parse_aem(aem.out).lines.size(), 500U);
+  EXPECT_EQ(aem.err.find("began anew"), std::string::npos) << aem.err;
+  EXPECT_NE(aem.err.find("older than those said before them: 3;"), std::string::npos) << aem.err;
+}
+
+TEST(ExportAem, is_of_the_run_that_a_new_daemon_began_late) {
+  MadeRecording recording;
+  recording.add(status_of(1));
+  recording.fly(1, 500);
+  recording.add(status_of(2));
+  recording.fly(150, 300);
+  recording.finish();
+  const Outcome aem = export_aem(recording);
+  ASSERT_EQ(aem.code, 0) << aem.err;
+  EXPECT_EQ(parse_aem(aem.out).lines.size(), 151U);
+  EXPECT_NE(aem.err.find("500 samples before it are not"), std::string::npos) << aem.err;
+}
+
 TEST(ExportAem, refuses_values_that_would_break_its_lines) {
   MadeRecording recording;
   recording.fly(1, 2);

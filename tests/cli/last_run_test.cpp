@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "service/dds/convert.hpp"
+
 namespace adstar::cli {
 namespace {
 
@@ -27,15 +29,28 @@ Times joined(std::initializer_list<Times> parts) {
   return all;
 }
 
+/// At 1 kHz, of these milliseconds.
+Times at_1_khz(Times times) {
+  for (std::int64_t& t : times) {
+    t *= 1'000'000;
+  }
+  return times;
+}
+
 struct Taken {
   Times times;
   std::uint64_t before = 0, older = 0;
 };
 
-Taken taken_of(const Times& times) {
-  RunFinder finder;
+/// Each received a millisecond after the one before, from 0 on.
+constexpr std::int64_t kApart_ns = 1'000'000;
+
+Taken taken_of(const Times& times, const NewVoices& voices = {}, const char* service = "fly") {
+  RunFinder finder(voices);
+  std::int64_t received_ns = 0;
   for (const std::int64_t t : times) {
-    finder.add(t);
+    finder.add({t, service, received_ns});
+    received_ns += kApart_ns;
   }
   const RunSpan run = finder.last_run();
   RunReader reader(run);
@@ -51,6 +66,26 @@ Taken taken_of(const Times& times) {
   taken.before = reader.before();
   taken.older = reader.older();
   return taken;
+}
+
+/// A process and its run say a status as a service, when so many samples were received.
+struct Voice {
+  const char* service;
+  std::uint64_t instance;
+  std::uint32_t run;
+  std::int64_t after;
+};
+
+NewVoices voices_of(const std::vector<Voice>& said) {
+  NewVoices voices;
+  for (const Voice& voice : said) {
+    adstar_ServiceStatus status{};
+    dds::set_text(status.service, voice.service);
+    status.instance_low = voice.instance;
+    status.run = voice.run;
+    voices.hear(status, voice.after * kApart_ns);
+  }
+  return voices;
 }
 
 TEST(LastRun, is_all_of_one_run) {
@@ -99,6 +134,62 @@ TEST(LastRun, is_that_of_the_newer_one_of_two_who_fly_at_once) {
     times.push_back(t);
   }
   EXPECT_EQ(taken_of(times).times, rising(31, 80));
+}
+
+TEST(LastRun, does_not_begin_with_the_last_words_of_a_primary_that_had_hung) {
+  const Times flown = at_1_khz(rising(0, 30'000));
+  const NewVoices voices = voices_of({{"fly", 1, 0, 0},
+                                      {"fly.standby", 2, 0, 200},
+                                      {"fly", 1, 0, 1000},
+                                      {"fly", 2, 0, 2000},
+                                      {"fly.standby", 3, 0, 30'000},
+                                      {"fly", 1, 0, 30'001}});
+  for (const Times& words : {Times{1330, 1331, 1332, 1332}, Times{1, 2}, Times{1330}}) {
+    const Taken taken = taken_of(joined({flown, at_1_khz(words)}), voices);
+    EXPECT_EQ(taken.times, flown);
+    EXPECT_EQ(taken.before, 0U);
+    EXPECT_EQ(taken.older, words.size());
+  }
+}
+
+TEST(LastRun, begins_where_a_process_or_a_run_of_it_speaks_for_the_first_time) {
+  const Times flown = at_1_khz(rising(0, 30'000));
+  const Times anew = at_1_khz(rising(300, 700));  // the first were missed
+  for (const Voice& begun : {Voice{"fly", 2, 0, 30'000}, Voice{"fly", 1, 1, 30'000},
+                             Voice{"fly", 1, 1, 32'000}, Voice{"fly", 1, 1, 29'500}}) {
+    const NewVoices voices = voices_of({{"fly", 1, 0, 0}, begun});
+    EXPECT_EQ(taken_of(joined({flown, anew}), voices).times, anew) << begun.after;
+    const Taken taken = taken_of(joined({flown, anew, at_1_khz({5, 6})}), voices);
+    EXPECT_EQ(taken.times, anew) << "5 and 6 are a word of whoever";
+  }
+}
+
+TEST(LastRun, does_not_begin_where_somebody_else_speaks_for_the_first_time) {
+  const Times flown = at_1_khz(rising(0, 30'000));
+  const Times words = at_1_khz({1, 2});
+  for (const Voice& begun :
+       {Voice{"other", 2, 0, 30'000}, Voice{"fly", 2, 0, 20'000}, Voice{"fly", 2, 0, 40'000}}) {
+    const NewVoices voices = voices_of({{"fly", 1, 0, 0}, begun});
+    EXPECT_EQ(taken_of(joined({flown, words}), voices).times, flown) << begun.after;
+  }
+  const NewVoices other =
+      voices_of({{"fly", 1, 0, 0}, {"other", 2, 0, 0}, {"other", 3, 0, 30'000}});
+  EXPECT_EQ(taken_of(joined({flown, words}), other, "other").times, words);
+}
+
+TEST(LastRun, does_not_begin_with_whoever_flew_when_the_recording_began) {
+  const Times flown = at_1_khz(rising(9'000, 10'000));
+  const NewVoices voices = voices_of({{"fly", 1, 0, 700}});
+  EXPECT_EQ(taken_of(joined({flown, at_1_khz({1, 2})}), voices).times, flown);
+}
+
+TEST(LastRun, begins_at_about_zero_where_nobody_knows_who_speaks) {
+  const Times flown = at_1_khz(rising(0, 30'000));
+  const Times words = at_1_khz({1330, 1331, 1332, 1332});
+  EXPECT_EQ(taken_of(joined({flown, words})).times, flown);
+  EXPECT_EQ(taken_of(joined({flown, at_1_khz({990, 991})})).times, at_1_khz({990, 991}));
+  const Times slow = at_1_khz({10'000, 20'000});  // 0.1 Hz
+  EXPECT_EQ(taken_of(joined({at_1_khz({10'000, 20'000, 30'000}), slow})).times, slow);
 }
 
 TEST(LastRun, goes_no_further_than_it_was_found) {

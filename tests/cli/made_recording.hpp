@@ -62,6 +62,7 @@ class MadeRecording {
   void add(const adstar_AttitudeState& sample) { add(0, sample); }
   void add(const adstar_MomentumState& sample) { add(1, sample); }
   void add(const adstar_FleetState& sample) { add(2, sample); }
+  void add(const adstar_ServiceStatus& sample) { add(3, sample); }
   /// Attitude and momentum of the steps from first to last.
   void fly(std::uint64_t first, std::uint64_t last, std::string_view spacecraft = "sat1") {
     for (std::uint64_t step = first; step <= last; ++step) {
@@ -83,7 +84,8 @@ class MadeRecording {
   bag::RollingWriter writer_{home_ / "bag",
                              {{"/adstar/attitude_state", "adstar/msg/AttitudeState", ""},
                               {"/adstar/momentum_state", "adstar/msg/MomentumState", ""},
-                              {"/adstar/fleet_state", "adstar/msg/FleetState", ""}},
+                              {"/adstar/fleet_state", "adstar/msg/FleetState", ""},
+                              {"/adstar/service_status", "adstar/msg/ServiceStatus", ""}},
                              {}};
 };
 
