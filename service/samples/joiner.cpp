@@ -13,6 +13,10 @@ using report::Row, report::kAttitude, report::kAngularVelocity, report::kMomentu
 
 /// Whoever can write to the domain could otherwise fill our memory with names.
 constexpr std::size_t kMostTracks = 1'100'000;
+constexpr std::size_t kMostLines = 4;
+
+/// A line that got none of so many samples of its spacecraft gets no other half: they are no last words, but a new run.
+constexpr std::uint64_t kLeftAfter = 64;
 
 void put(Row& row, std::size_t first, const adstar_Vector3& v) {
   row.values[first] = v.x;
@@ -37,23 +41,54 @@ Row* Joiner::place(const Sample& sample, Half half) {
     return nullptr;
   }
   Track& track = tracks_[name];
-  const auto newest = track.newest.find(half);
-  if (newest != track.newest.end() && sample.step < newest->second) {
-    // A topic never runs backwards: the daemon has begun anew.
-    give_out(track, restarted_, true);
-    track = Track{};
-  }
-  track.newest[half] = sample.step;
-  if (track.begun && sample.step <= track.done) {
+  ++track.samples;
+  Line* line = line_of(track, half, sample.step);
+  if (line == nullptr) {
     return nullptr;
   }
-  Waiting& waiting = track.waiting[sample.step];
+  line->newest[half] = sample.step;
+  line->fed = track.samples;
+  Waiting& waiting = line->waiting[sample.step];
+  if (waiting.halves == 0) {
+    waiting.came = track.samples;
+  }
   waiting.halves |= half;
   waiting.row.spacecraft = name;
   waiting.row.step = sample.step;
   waiting.row.time_ns = sample.time_ns;
   waiting.row.flags |= sample.flags;
   return &waiting.row;
+}
+
+/// Null when the line that it continues has given that step out.
+Joiner::Line* Joiner::line_of(Track& track, Half half, std::uint64_t step) {
+  bool is_late = false;
+  for (Line& line : track.lines) {
+    if (track.samples - line.fed > kLeftAfter) {
+      give_out(line, left_, true);
+    }
+    const auto newest = line.newest.find(half);
+    if (step < (newest == line.newest.end() ? line.first : newest->second)) {
+      continue;
+    }
+    if (!line.begun || step > line.done) {
+      return &line;
+    }
+    is_late = true;
+  }
+  return is_late ? nullptr : &new_line(track, step);
+}
+
+Joiner::Line& Joiner::new_line(Track& track, std::uint64_t first) {
+  if (track.lines.size() == kMostLines) {
+    const auto longest_ago =
+        std::min_element(track.lines.begin(), track.lines.end(),
+                         [](const Line& a, const Line& b) { return a.fed < b.fed; });
+    give_out(*longest_ago, left_, true);
+    track.lines.erase(longest_ago);
+  }
+  track.lines.emplace_back().first = first;
+  return track.lines.back();
 }
 
 void Joiner::add(const adstar_AttitudeState& sample) {
@@ -103,9 +138,11 @@ bool Joiner::has_own_topics(std::string_view spacecraft) const {
 
 std::vector<Row> Joiner::ready(bool everything) {
   std::vector<Row> rows;
-  std::swap(rows, restarted_);
+  std::swap(rows, left_);
   for (auto& [name, track] : tracks_) {
-    give_out(track, rows, everything);
+    for (Line* line : waiting_lines(track)) {
+      give_out(*line, rows, everything);
+    }
   }
   rows.insert(rows.end(), std::make_move_iterator(fleet_rows_.begin()),
               std::make_move_iterator(fleet_rows_.end()));
@@ -113,29 +150,43 @@ std::vector<Row> Joiner::ready(bool everything) {
   return rows;
 }
 
+/// In the order in which their oldest came.
+std::vector<Joiner::Line*> Joiner::waiting_lines(Track& track) {
+  std::vector<Line*> lines;
+  for (Line& line : track.lines) {
+    if (!line.waiting.empty()) {
+      lines.push_back(&line);
+    }
+  }
+  std::sort(lines.begin(), lines.end(), [](const Line* a, const Line* b) {
+    return a->waiting.begin()->second.came < b->waiting.begin()->second.came;
+  });
+  return lines;
+}
+
 /// What waits longest will get no other half.
-bool Joiner::is_overtaken(const Track& track) const {
+bool Joiner::is_overtaken(const Line& line) const {
   if (patience_ == Patience::rounds) {
-    return track.waiting.size() > 1;
+    return line.waiting.size() > 1;
   }
   constexpr std::size_t kMostWaiting = 4096;
-  const std::uint64_t oldest = track.waiting.begin()->first;
-  return track.waiting.size() > kMostWaiting ||
-         (track.newest.size() == 2 &&
-          std::all_of(track.newest.begin(), track.newest.end(),
+  const std::uint64_t oldest = line.waiting.begin()->first;
+  return line.waiting.size() > kMostWaiting ||
+         (line.newest.size() == 2 &&
+          std::all_of(line.newest.begin(), line.newest.end(),
                       [&](const auto& topic) { return topic.second > oldest; }));
 }
 
-void Joiner::give_out(Track& track, std::vector<Row>& rows, bool everything) const {
-  while (!track.waiting.empty()) {
-    const auto oldest = track.waiting.begin();
-    if (oldest->second.halves != kBoth && !everything && !is_overtaken(track)) {
+void Joiner::give_out(Line& line, std::vector<Row>& rows, bool everything) const {
+  while (!line.waiting.empty()) {
+    const auto oldest = line.waiting.begin();
+    if (oldest->second.halves != kBoth && !everything && !is_overtaken(line)) {
       return;
     }
-    track.begun = true;
-    track.done = oldest->first;
+    line.begun = true;
+    line.done = oldest->first;
     rows.push_back(std::move(oldest->second.row));
-    track.waiting.erase(oldest);
+    line.waiting.erase(oldest);
   }
 }
 

@@ -3,6 +3,9 @@
 //
 // A half waits for the other until something later of that spacecraft has come: each topic keeps
 // its order, but the two are taken one after the other, so that is judged at the end of a round.
+//
+// Samples that are older than what their topic had said, of whoever had hung, took over or began anew, are joined among
+// themselves: each goes to the first line of rising steps that it continues, and ends none of the others.
 
 #include <cstdint>
 #include <map>
@@ -28,7 +31,7 @@ class Joiner {
   void add(std::string_view spacecraft, const adstar_FleetState& fleet,
            const adstar_FleetMember& member);
 
-  /// After both topics were taken: the rows that are ready, by spacecraft, then by step.
+  /// After both topics were taken: the rows that are ready, by spacecraft, then by step of each line.
   std::vector<report::Row> end_round() { return ready(false); }
   /// At the end of it all: what still waits, too.
   std::vector<report::Row> rest() { return ready(true); }
@@ -41,24 +44,35 @@ class Joiner {
   struct Waiting {
     report::Row row;
     unsigned halves = 0;
+    std::uint64_t came = 0;  ///< the track's samples then
   };
-  struct Track {
+  /// Steps that rise.
+  struct Line {
+    std::uint64_t first = 0;                   ///< step
     std::map<std::uint64_t, Waiting> waiting;  ///< by step
     std::map<Half, std::uint64_t> newest;      ///< step of each topic
     bool begun = false;
     std::uint64_t done = 0;  ///< the last step given out, once begun
+    std::uint64_t fed = 0;   ///< the track's samples, when it got its newest
+  };
+  struct Track {
+    std::vector<Line> lines;  ///< none gets what one before it would take
+    std::uint64_t samples = 0;
   };
 
   template <class Sample>
   report::Row* place(const Sample& sample, Half half);
+  Line* line_of(Track& track, Half half, std::uint64_t step);
+  Line& new_line(Track& track, std::uint64_t first);
+  static std::vector<Line*> waiting_lines(Track& track);
   std::vector<report::Row> ready(bool everything);
-  void give_out(Track& track, std::vector<report::Row>& rows, bool everything) const;
-  bool is_overtaken(const Track& track) const;
+  void give_out(Line& line, std::vector<report::Row>& rows, bool everything) const;
+  bool is_overtaken(const Line& line) const;
 
   Patience patience_;
   std::map<std::string, Track, std::less<>> tracks_;
   std::map<std::string, std::uint64_t, std::less<>> fleet_steps_;
-  std::vector<report::Row> restarted_;  ///< of runs that ended before the present one
+  std::vector<report::Row> left_;  ///< of lines that nobody continues
   std::vector<report::Row> fleet_rows_;
 };
 

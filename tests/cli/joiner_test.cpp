@@ -110,7 +110,78 @@ TEST(Joiner, a_daemon_that_begins_anew_is_heard_from_its_first_step) {
   EXPECT_EQ(described(joiner.end_round()), "sat1@900:both");
   joiner.add(attitude(0));
   joiner.add(momentum(0));
-  EXPECT_EQ(described(joiner.end_round()), "sat1@1000:attitude sat1@0:both");
+  EXPECT_EQ(described(joiner.end_round()), "sat1@0:both");
+  EXPECT_EQ(described(joiner.rest()), "sat1@1000:attitude");
+}
+
+TEST(Joiner, a_sample_long_past_takes_no_other_half_away) {
+  for (const auto patience : {Joiner::Patience::rounds, Joiner::Patience::both_topics}) {
+    Joiner joiner(patience);
+    joiner.add(attitude(1000));
+    joiner.end_round();
+    joiner.add(attitude(5));
+    joiner.add(attitude(6));
+    joiner.add(momentum(5));
+    EXPECT_EQ(described(joiner.end_round()), "sat1@5:both");
+    joiner.add(momentum(6));
+    joiner.add(momentum(1000));
+    EXPECT_EQ(described(joiner.end_round()), "sat1@1000:both sat1@6:both");
+    joiner.add(attitude(1001));
+    joiner.add(momentum(1001));
+    EXPECT_EQ(described(joiner.end_round()), "sat1@1001:both");
+    EXPECT_EQ(described(joiner.rest()), "");
+  }
+}
+
+TEST(Joiner, a_half_of_an_ended_run_is_not_joined_with_one_of_the_next) {
+  for (const auto patience : {Joiner::Patience::rounds, Joiner::Patience::both_topics}) {
+    Joiner joiner(patience);
+    joiner.add(attitude(69));
+    joiner.add(momentum(69));
+    joiner.add(attitude(70));
+    EXPECT_EQ(described(joiner.end_round()), "sat1@69:both");
+    std::vector<Row> rows;
+    for (std::uint64_t step = 0; step < 80; ++step) {
+      joiner.add(momentum(step));
+      joiner.add(attitude(step));
+      for (Row& row : joiner.end_round()) {
+        rows.push_back(std::move(row));
+      }
+    }
+    ASSERT_EQ(rows.size(), 81U);
+    std::uint64_t step = 0;
+    for (const Row& row : rows) {
+      if (described({row}) != "sat1@70:attitude") {
+        EXPECT_EQ(described({row}), "sat1@" + std::to_string(step++) + ":both");
+      }
+    }
+    EXPECT_EQ(step, 80U);
+  }
+}
+
+TEST(Joiner, each_who_speaks_at_once_is_joined_with_itself) {
+  Joiner joiner;
+  for (const std::uint64_t step : {0, 1}) {
+    for (const std::uint64_t from : {1000, 700, 400, 100}) {
+      joiner.add(attitude(from + step));
+    }
+    for (const std::uint64_t from : {1000, 700, 400, 100}) {
+      joiner.add(momentum(from + step));
+    }
+    EXPECT_EQ(described(joiner.end_round()),
+              step == 0 ? "sat1@1000:both sat1@700:both sat1@400:both sat1@100:both"
+                        : "sat1@1001:both sat1@701:both sat1@401:both sat1@101:both");
+  }
+}
+
+TEST(Joiner, what_waits_is_given_out_when_more_speak_at_once_than_it_keeps_apart) {
+  Joiner joiner(Joiner::Patience::both_topics);
+  for (const std::uint64_t from : {1000, 700, 400, 100}) {
+    joiner.add(attitude(from));
+  }
+  EXPECT_EQ(described(joiner.end_round()), "");
+  joiner.add(attitude(10));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@1000:attitude");
 }
 
 TEST(Joiner, with_patience_waits_for_halves_that_stand_far_apart) {
