@@ -241,6 +241,19 @@ TEST(Metrics, do_not_miss_a_daemon_that_said_that_it_ends) {
   EXPECT_EQ(metrics_text(board, kNow).find("adstar_up"), std::string::npos);
 }
 
+TEST(Metrics, do_not_bring_a_daemon_back_for_a_timing_that_comes_late) {
+  Board board;
+  adstar_ServiceStatus last = status(1);
+  last.state = adstar_SERVICE_STOPPED;
+  adstar_StepTiming timing{};
+  set_text(timing.service, "fly");
+  board.learn(last, kNow);
+  board.forget_service("fly", kNow);
+  board.learn(timing, kNow);
+  EXPECT_EQ(metrics_text(board, kNow).find("service=\"fly\""), std::string::npos)
+      << metrics_text(board, kNow);
+}
+
 TEST(Metrics, escape_what_would_end_a_label) {
   Board board;
   adstar_ServiceStatus sample = status(1);

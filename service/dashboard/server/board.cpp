@@ -95,9 +95,10 @@ void Board::learn(const adstar_ServiceStatus& sample, Clock::time_point now) {
 }
 
 void Board::learn(const adstar_StepTiming& sample, Clock::time_point now) {
-  if (ServiceRecord* service = entry(services_, name_in(sample.service), kMostServices)) {
-    service->timing = sample;
-    service->heard = now;
+  const auto found = services_.find(name_in(sample.service));
+  if (found != services_.end()) {
+    found->second.timing = sample;
+    found->second.heard = now;
   }
 }
 

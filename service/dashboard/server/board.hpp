@@ -72,6 +72,7 @@ class Board {
   void learn(const adstar_MomentumState& sample, Clock::time_point now);
   void learn(const adstar_FleetState& sample, Clock::time_point now);
   void learn(const adstar_ServiceStatus& sample, Clock::time_point now);
+  /// Of those alone whose status is there: a late one brings nobody back who has gone.
   void learn(const adstar_StepTiming& sample, Clock::time_point now);
   void learn(const adstar_ServiceRoster& sample);
   /// A repeated answer counts once.

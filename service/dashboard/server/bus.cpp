@@ -43,11 +43,10 @@ void Bus::listen(std::chrono::nanoseconds patience) {
       [&](const adstar_ServiceRoster& key) {
         board_.forget_roster(dds::text_of(key.service), key.instance_high, key.instance_low);
       });
-  // Before the statuses: a last timing must not bring back who has gone.
-  take_all(timings_, learn, stays);
   take_all(statuses_, learn, [&](const adstar_ServiceStatus& key) {
     board_.forget_service(dds::text_of(key.service), now);
   });
+  take_all(timings_, learn, stays);
   take_all(attitudes_, learn, [&](const adstar_AttitudeState& key) {
     board_.forget_spacecraft(dds::text_of(key.spacecraft));
   });
