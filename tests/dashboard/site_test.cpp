@@ -119,6 +119,13 @@ TEST(Site, answers_though_slow_clients_held_every_thread) {
   EXPECT_FALSE(dripping.gave_up());
 }
 
+TEST(Site, lets_those_go_together_who_waited_for_a_thread_in_vain) {
+  Served served;
+  const Dripping dripping(served.port, 200);
+  EXPECT_NE(answer_to(served.port, "/metrics").find("200 OK"), std::string::npos);
+  EXPECT_FALSE(dripping.gave_up());
+}
+
 TEST(Site, reads_no_second_request_on_a_connection) {
   const Served served;
   const std::string request =

@@ -4,16 +4,38 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <poll.h>
 #include <string>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 namespace adstar::dashboard {
 namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
+
+/// When the connection that this thread serves had come.
+thread_local Clock::time_point came;
+
+/// The library's threads, and beside each task when it came.
+class StampedQueue final : public httplib::TaskQueue {
+ public:
+  explicit StampedQueue(std::size_t threads) : pool_(threads) {}
+
+  void enqueue(std::function<void()> task) override {
+    pool_.enqueue([task = std::move(task), now = Clock::now()] {
+      came = now;
+      task();
+    });
+  }
+  void shutdown() override { pool_.shutdown(); }
+
+ private:
+  httplib::ThreadPool pool_;
+};
 
 class Connection final : public httplib::Stream {
  public:
@@ -61,10 +83,19 @@ class Connection final : public httplib::Stream {
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(patience);
     return poll(&looked, 1, static_cast<int>(std::max<std::int64_t>(wait.count(), 0))) > 0;
   }
+  /// What came while the connection waited for a thread is read, once, though its time is over.
   bool may_read() const {
-    while (!ending_ && Clock::now() < deadline_) {
-      if (is_ready(POLLIN, std::min<Clock::duration>(kGlance, deadline_ - Clock::now()))) {
+    const bool has_read = filled_ > 0;
+    while (!ending_) {
+      const Clock::duration left = deadline_ - Clock::now();
+      if (left <= 0s && has_read) {
+        return false;
+      }
+      if (is_ready(POLLIN, std::min<Clock::duration>(kGlance, left))) {
         return true;
+      }
+      if (left <= 0s) {
+        return false;
       }
     }
     return false;
@@ -82,12 +113,17 @@ class Connection final : public httplib::Stream {
 
   int socket_;
   const std::atomic<bool>& ending_;
-  Clock::time_point deadline_ = Clock::now() + LimitedServer::kRequestPatience;
+  Clock::time_point deadline_ = came + LimitedServer::kRequestPatience;
   std::array<char, 4096> block_;
   std::size_t at_ = 0, filled_ = 0;  ///< of the block
 };
 
 }  // namespace
+
+LimitedServer::LimitedServer(const std::atomic<bool>& ending, std::size_t threads)
+    : ending_(ending) {
+  new_task_queue = [threads] { return new StampedQueue(threads); };
+}
 
 bool LimitedServer::process_and_close_socket(socket_t socket) {
   Connection connection(socket, ending_);

@@ -79,8 +79,7 @@ Site::Site(const Bus& bus, PulseDesk& desk, Options options)
     : bus_(bus),
       desk_(desk),
       options_(std::move(options)),
-      server_(std::make_unique<LimitedServer>(ending_)) {
-  server_->new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+      server_(std::make_unique<LimitedServer>(ending_, kThreads)) {
   // The library would share the port with a second dashboard (SO_REUSEPORT).
   server_->set_socket_options([](int socket) {
     const int yes = 1;
