@@ -93,7 +93,7 @@ std::string timing_json(const adstar_StepTiming& t) {
     const adstar_PhaseTiming& phase = t.*part.timing;
     line[part.key] = json_of(phase.took);
     line[part.key]["sum_ns"] = phase.sum_ns;
-    line[part.key]["octaves"] = phase.octaves;
+    line[part.key]["quarter_octaves"] = phase.quarter_octaves;
     line[part.key]["budget_ns"] = phase.budget_ns;
     line[part.key]["over_budget"] = phase.over_budget;
   }

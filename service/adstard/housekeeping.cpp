@@ -87,7 +87,7 @@ runtime::TimingRecord Housekeeping::timing(bool stopped) const {
                                                   budget.step_ns, budget.hand_over_ns};
   for (std::size_t i = 0; i < runtime::kPhases; ++i) {
     const runtime::Histogram& took = report.phases[i];
-    timing.phases[i] = {took.quantiles(), took.sum_ns(), took.octaves(), budgets[i],
+    timing.phases[i] = {took.quantiles(), took.sum_ns(), took.quarter_octaves(), budgets[i],
                         read(report.over_budget[i])};
   }
   timing.tick_body = report.tick_body.quantiles();

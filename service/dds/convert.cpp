@@ -78,8 +78,8 @@ adstar_Quantiles quantiles(const runtime::QuantilesRecord& q) noexcept {
 adstar_PhaseTiming phase(const runtime::TimingRecord& record, runtime::Phase which) noexcept {
   const runtime::PhaseRecord& p = record.phases[static_cast<std::size_t>(which)];
   adstar_PhaseTiming timing{quantiles(p.took), p.sum_ns, {}, p.budget_ns, p.over_budget};
-  static_assert(std::size(decltype(timing.octaves){}) == runtime::kOctaves);
-  std::copy(p.octaves.begin(), p.octaves.end(), timing.octaves);
+  static_assert(std::size(decltype(timing.quarter_octaves){}) == runtime::kQuarterOctaves);
+  std::copy(p.quarter_octaves.begin(), p.quarter_octaves.end(), timing.quarter_octaves);
   return timing;
 }
 

@@ -2,7 +2,6 @@
 // Distribution of times in fixed memory: 32 buckets an octave (the idea of HdrHistogram, Tene
 // 2012), so a quantile is known to 3 %. One thread records, any thread reads.
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -27,10 +26,16 @@ class Histogram {
 
   std::uint64_t sum_ns() const noexcept { return sum_.load(std::memory_order_relaxed); }
 
-  OctaveCounts octaves() const noexcept {
-    OctaveCounts counts{};
+  QuarterOctaveCounts quarter_octaves() const noexcept {
+    // Every edge is one of buckets, too.
+    QuarterOctaveCounts counts{};
+    std::size_t i = 0;
     for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
-      counts[octave_of(top_of(bucket))] += buckets_[bucket].load(std::memory_order_relaxed);
+      while (i + 1 < kQuarterOctaves &&
+             top_of(bucket) >= static_cast<std::uint64_t>(quarter_octave_edge_ns(i))) {
+        ++i;
+      }
+      counts[i] += buckets_[bucket].load(std::memory_order_relaxed);
     }
     return counts;
   }
@@ -71,14 +76,6 @@ class Histogram {
     const std::size_t octave = bucket / kPerOctave - 1;
     const std::uint64_t first = (kPerOctave + bucket % kPerOctave) << octave;
     return first + ((std::uint64_t{1} << octave) - 1);
-  }
-
-  static std::size_t octave_of(std::uint64_t value) noexcept {
-    constexpr int kFirst = 8;  // bits of the first octave's times
-    const auto bits = static_cast<int>(std::bit_width(value));
-    return bits <= kFirst
-               ? 0
-               : std::min<std::size_t>(static_cast<std::size_t>(bits - kFirst), kOctaves - 1);
   }
 
   std::int64_t quantile(const QuantilesRecord& known, double fraction) const noexcept {

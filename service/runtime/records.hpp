@@ -232,14 +232,22 @@ struct QuantilesRecord {
 enum class Phase : std::uint32_t { wake_up, commands, step, hand_over };
 inline constexpr std::size_t kPhases = 4;
 
-/// How often a time fell into each octave: below 2^8 ns, then [2^(7+i), 2^(8+i)) ns, and 2^30 ns or more.
-inline constexpr std::size_t kOctaves = 24;
-using OctaveCounts = std::array<std::uint64_t, kOctaves>;
+/// How often a time fell between two edges: below the first, 2^8 ns; then four counts an octave; the last is of 2^30 ns or more.
+inline constexpr std::size_t kQuarterOctaves = 90;
+using QuarterOctaveCounts = std::array<std::uint64_t, kQuarterOctaves>;
+
+/// In an octave that begins at 32 of anything: the whole numbers next to 32·2^(i/4), a fifth apart at most.
+inline constexpr std::array<std::int64_t, 4> kQuarterEdges{32, 38, 45, 54};
+
+/// What the times of count `i` are below, of all but the last.
+constexpr std::int64_t quarter_octave_edge_ns(std::size_t i) noexcept {
+  return kQuarterEdges[i % 4] << (3 + i / 4);
+}
 
 struct PhaseRecord {
   QuantilesRecord took;
   std::uint64_t sum_ns = 0;
-  OctaveCounts octaves{};
+  QuarterOctaveCounts quarter_octaves{};
   std::int64_t budget_ns = 0;  ///< 0: none
   std::uint64_t over_budget = 0;
 };

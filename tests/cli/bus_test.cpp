@@ -234,10 +234,11 @@ adstar_StepTiming some_timing() {
   dds::set_text(timing.service, "fake");
   timing.step = 12'345;
   timing.time_ns = 12'345'000'000;
-  timing.wake_up_lateness = {{12'345, 3'100, 9'800, 33'000, 120'400}, 40'000'000, {}, 200'000, 0};
-  timing.command_phase = {{12'345, 100, 300, 2'100, 8'000}, 0, 0};
+  timing.wake_up_lateness = {
+      {12'345, 3'100, 9'800, 33'000, 120'400}, 40'000'000, {3, 12'340, 2}, 200'000, 0};
+  timing.command_phase = {{12'345, 100, 300, 2'100, 8'000}, 0, {}, 0, 0};
   timing.step_phase = {{12'345, 400, 700, 5'000, 51'000}, 6'000'000, {0, 12'345}, 50'000, 1};
-  timing.hand_over_phase = {{12'345, 90, 1'900, 25'000, 60'000}, 0, 0};
+  timing.hand_over_phase = {{12'345, 90, 1'900, 25'000, 60'000}, 0, {}, 0, 0};
   timing.tick_body = {12'345, 600, 2'900, 27'000, 61'000};
   timing.late_beats = 5;
   timing.late_after_work = 2;
@@ -273,9 +274,13 @@ TEST(Timing, is_a_line_of_json_for_machines) {
                               "import json,sys\n"
                               "t=json.loads(open(sys.argv[1]).read())\n"
                               "print(t['service'], t['step_phase']['over_budget'], "
-                              "t['wake_up_lateness']['p99_9_ns'], t['behind_wall_ns'])",
+                              "t['wake_up_lateness']['p99_9_ns'], t['behind_wall_ns'])\n"
+                              "w=t['wake_up_lateness']\n"
+                              "print(w['sum_ns'], w['quarter_octaves'][:4], "
+                              "len(w['quarter_octaves']), t['step_phase']['quarter_octaves'][1])",
                               file});
-  EXPECT_EQ(python.out, "fake 1 33000 5000000\n") << python.err << client.out();
+  EXPECT_EQ(python.out, "fake 1 33000 5000000\n40000000 [3, 12340, 2, 0] 90 12345\n")
+      << python.err << client.out();
 }
 
 TEST(Timing, of_a_service_that_is_not_there_is_exit_code_4) {

@@ -183,9 +183,9 @@ TEST(Metrics, count_what_the_daemon_counts) {
   timing.late_after_sleep = 3;
   timing.wake_up_lateness.took = {10, 1000, 2000, 3000, 4000};
   timing.wake_up_lateness.sum_ns = 12'000;
-  timing.wake_up_lateness.octaves[2] = 7;
-  timing.wake_up_lateness.octaves[4] = 2;
-  timing.wake_up_lateness.octaves[23] = 1;
+  timing.wake_up_lateness.quarter_octaves[2] = 7;
+  timing.wake_up_lateness.quarter_octaves[5] = 2;
+  timing.wake_up_lateness.quarter_octaves[89] = 1;
   board.learn(timing, kNow);
   board.learn(momentum("sat1"), kNow);
   board.learn(verdict(1, adstar_VERDICT_CLAMPED));
@@ -197,8 +197,10 @@ TEST(Metrics, count_what_the_daemon_counts) {
         "adstar_late_beats_total{service=\"fly\",cause=\"sleep\"} 3\n",
         "adstar_phase_seconds{service=\"fly\",phase=\"wake_up\",quantile=\"0.99\"} 2e-06\n",
         "# TYPE adstar_phase_duration_seconds histogram\n",
-        "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"5.12e-07\"} 0\n",
-        "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"1.024e-06\"} 7\n",
+        "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"3.04e-07\"} 0\n",
+        "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"3.6e-07\"} 7\n",
+        "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"5.12e-07\"} 7\n",
+        "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"6.08e-07\"} 9\n",
         "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"1.073741824\"} 9\n",
         "_duration_seconds_bucket{service=\"fly\",phase=\"wake_up\",le=\"+Inf\"} 10\n",
         "_duration_seconds_sum{service=\"fly\",phase=\"wake_up\"} 1.2e-05\n",

@@ -265,6 +265,33 @@ describe("a fleet of 10,000", () => {
   });
 });
 
+describe("timing", () => {
+  test("how often a part took how long stands over those times", async (context) => {
+    const fake = await startFakeHour(join(page_directory, "dist"), 1000);
+    context.after(() => fake.close());
+    const page = await open(fake.url);
+    const pathsOf = (kind) => page.evaluate((kind) => [...document.querySelectorAll(`#timing svg[role=img] path.${kind}`)].map((path) => path.getAttribute("d")), kind);
+    let drawn = [];
+    await until("each part has its columns", async () => (drawn = await pathsOf("often")).length === 4 && drawn[0].split("M").length > 20);
+    const grid = await pathsOf("grid");
+    const [least_x, most_x] = [grid[0], grid.at(-1)].map((line) => Number(/M([\d.]+)/.exec(line)[1]));
+    const ns = (x) => 1e2 * (1e9 / 1e2) ** ((x - least_x) / (most_x - least_x));
+    for (const path of drawn) {
+      const columns = [...path.matchAll(/M([\d.]+),[\d.]+v-([\d.]+)H([\d.]+)V/g)].map(([, from, height, to]) => ({ from: ns(Number(from)), height: Number(height), to: ns(Number(to)) }));
+      const tallest = columns.reduce((a, b) => (b.height > a.height ? b : a));
+      // 45 and 54 of 32 parts of the octave that begins at 2^15 ns.
+      assert.ok(Math.abs(tallest.from / 46_080 - 1) < 1e-6 && Math.abs(tallest.to / 55_296 - 1) < 1e-6, JSON.stringify(tallest));
+      for (const [i, { height, to }] of columns.slice(0, -1).entries()) {
+        const next = columns[i + 1];
+        assert.ok(Math.abs(next.from / to - 1) < 1e-6, `a gap at ${to} ns`);
+        assert.ok(next.from <= tallest.from ? next.height >= height : next.height <= height, `${height}, then ${next.height} at ${to} ns`);
+      }
+    }
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  });
+});
+
 describe("an hour of data", () => {
   test("stays under 50 MB", async (context) => {
     const fake = await startFakeHour(join(page_directory, "dist"));

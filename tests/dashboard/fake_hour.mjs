@@ -10,7 +10,7 @@ export function frameAt(i) {
   const t = i / 10;
   const wave = (period, phase) => Math.sin((2 * Math.PI * t) / period + phase);
   const quantiles = { count: i, p50_ns: 40e3, p99_ns: 90e3, p99_9_ns: 400e3, max_ns: 2e6, budget_ns: 1e6, over_budget: 2,
-    octaves: Array.from({ length: 24 }, (_, k) => (k < 6 || k > 13 ? 0 : Math.round(i / 4 ** Math.abs(8 - k)))) };
+    quarter_octaves: Array.from({ length: 90 }, (_, k) => (k < 22 || k > 52 ? 0 : Math.round(i / 1.5 ** Math.abs(31 - k)))) };
   const half = 0.3 * t;
   return {
     watched: "sat1",

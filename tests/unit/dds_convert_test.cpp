@@ -205,7 +205,7 @@ TEST(DdsConvert, timing_keeps_every_part_of_a_beat_apart) {
   for (std::size_t i = 0; i < runtime::kPhases; ++i) {
     const auto n = static_cast<std::int64_t>(i);
     record.phases[i] = {{i, 10 + n, 20 + n, 30 + n, 40 + n}, 50 + i, {}, 100 + n, 7 + i};
-    record.phases[i].octaves[23] = 60 + i;
+    record.phases[i].quarter_octaves[89] = 60 + i;
   }
   record.late_after_sleep = 3;
   record.behind_ns = -5;
@@ -217,8 +217,8 @@ TEST(DdsConvert, timing_keeps_every_part_of_a_beat_apart) {
   EXPECT_EQ(sample.command_phase.took.p99_ns, 21);
   EXPECT_EQ(sample.step_phase.budget_ns, 102);
   EXPECT_EQ(sample.step_phase.sum_ns, 52U);
-  EXPECT_EQ(sample.step_phase.octaves[23], 62U);
-  EXPECT_EQ(sample.step_phase.octaves[0], 0U);
+  EXPECT_EQ(sample.step_phase.quarter_octaves[89], 62U);
+  EXPECT_EQ(sample.step_phase.quarter_octaves[0], 0U);
   EXPECT_EQ(sample.hand_over_phase.over_budget, 10U);
   EXPECT_EQ(sample.late_after_sleep, 3U);
   EXPECT_EQ(sample.behind_wall_ns, -5);

@@ -140,22 +140,43 @@ TEST(Histogram, may_be_read_while_it_records) {
   expect_close(histogram->quantiles().p50_ns, 499);
 }
 
-TEST(Histogram, counts_octaves_at_their_edges_and_keeps_the_sum) {
+TEST(Histogram, counts_quarters_of_octaves_at_their_edges_and_keeps_the_sum) {
   const auto histogram = std::make_unique<Histogram>();
   const std::int64_t top = std::int64_t{1} << 30;
   for (const std::int64_t ns :
-       {std::int64_t{-5}, std::int64_t{0}, std::int64_t{255}, std::int64_t{256}, std::int64_t{511},
-        std::int64_t{512}, top - 1, top, 8 * top}) {
+       {std::int64_t{-5}, std::int64_t{0}, std::int64_t{255}, std::int64_t{256}, std::int64_t{303},
+        std::int64_t{304}, std::int64_t{511}, std::int64_t{512}, top - 1, top, 8 * top}) {
     histogram->record(ns);
   }
-  OctaveCounts expected{};
+  QuarterOctaveCounts expected{};
   expected[0] = 3;
   expected[1] = 2;
   expected[2] = 1;
-  expected[22] = 1;
-  expected[23] = 2;
-  EXPECT_EQ(histogram->octaves(), expected);
-  EXPECT_EQ(histogram->sum_ns(), static_cast<std::uint64_t>(255 + 256 + 511 + 512 - 1 + 10 * top));
+  expected[4] = 1;
+  expected[5] = 1;
+  expected[88] = 1;
+  expected[89] = 2;
+  EXPECT_EQ(histogram->quarter_octaves(), expected);
+  EXPECT_EQ(histogram->sum_ns(),
+            static_cast<std::uint64_t>(255 + 256 + 303 + 304 + 511 + 512 - 1 + 10 * top));
+}
+
+TEST(Histogram, has_edges_a_fifth_apart_at_most_and_every_time_on_its_side_of_each) {
+  EXPECT_EQ(quarter_octave_edge_ns(0), 256);
+  EXPECT_EQ(quarter_octave_edge_ns(kQuarterOctaves - 2), std::int64_t{1} << 30);
+  for (std::size_t i = 0; i + 1 < kQuarterOctaves; ++i) {
+    const std::int64_t edge = quarter_octave_edge_ns(i);
+    const auto histogram = std::make_unique<Histogram>();
+    histogram->record(edge - 1);
+    histogram->record(edge);
+    EXPECT_EQ(histogram->quarter_octaves()[i], 1U) << edge;
+    EXPECT_EQ(histogram->quarter_octaves()[i + 1], 1U) << edge;
+    if (i > 0) {
+      const std::int64_t before = quarter_octave_edge_ns(i - 1);
+      EXPECT_GT(edge, before);
+      EXPECT_LE(5 * edge, 6 * before);
+    }
+  }
 }
 
 }  // namespace

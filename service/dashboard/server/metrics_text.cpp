@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "service/dashboard/server/frame_json.hpp"
+#include "service/runtime/records.hpp"
 
 namespace adstar::dashboard {
 namespace {
@@ -207,16 +208,17 @@ class Writer {
              }
            });
     metric("adstar_phase_duration_seconds", "histogram",
-           "The same, counted in octaves from 256 ns to a second.",
+           "The same, counted four times an octave from 256 ns to a second.",
            [](Metric& out, const std::string& labels, const ServiceRecord& r) {
              for (std::size_t i = 0; r.timing && i < kPhases.size(); ++i) {
                const adstar_PhaseTiming& p = (*r.timing).*kPhases[i].timing;
                const std::string phase = fmt::format("{},phase=\"{}\"", labels, kPhases[i].name);
                std::uint64_t below = 0;
-               for (std::size_t k = 0; k < std::size(p.octaves); ++k) {
-                 below += p.octaves[k];
-                 const bool last = k + 1 == std::size(p.octaves);
-                 const std::string le = last ? "+Inf" : number(seconds(std::int64_t{1} << (8 + k)));
+               for (std::size_t k = 0; k < std::size(p.quarter_octaves); ++k) {
+                 below += p.quarter_octaves[k];
+                 const bool last = k + 1 == std::size(p.quarter_octaves);
+                 const std::string le =
+                     last ? "+Inf" : number(seconds(runtime::quarter_octave_edge_ns(k)));
                  out.add(phase + ",le=\"" + le + "\"", fmt::format("{}", below), "_bucket");
                }
                out.add(phase, number(static_cast<double>(p.sum_ns) / 1e9), "_sum");

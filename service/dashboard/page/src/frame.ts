@@ -29,7 +29,7 @@ export interface Quantiles {
 }
 
 export interface Phase extends Quantiles {
-  octaves: number[]; // beats below 2^8 ns, then [2^8, 2^9), ...; the last: 2^30 ns or more
+  quarter_octaves: number[]; // beats below 256 ns, then [256, 304), ...; the last: 2^30 ns or more (idl/health.idl)
   budget_ns: number;
   over_budget: number;
 }

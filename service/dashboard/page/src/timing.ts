@@ -120,7 +120,7 @@ export class TimingChart {
       if (phase.count === 0) {
         return;
       }
-      parts.push(svg("path", { d: columns(phase.octaves, x, y + kRow / 2 - 2), class: "often" }));
+      parts.push(svg("path", { d: columns(phase.quarter_octaves, x, y + kRow / 2 - 2), class: "often" }));
       parts.push(svg("path", { d: `M${x(phase.p50_ns)},${y}H${x(phase.max_ns)}`, class: "range" }));
       if (phase.budget_ns > 0) {
         const over = phase.p99_9_ns > phase.budget_ns ? " exceeded" : "";
@@ -134,12 +134,17 @@ export class TimingChart {
   }
 }
 
-/// A column an octave, standing on `foot`: as high as the logarithm of how many beats it has, so that a single late one is seen.
-function columns(octaves: number[], x: (ns: number) => number, foot: number): string {
-  const height = (count: number) => ((kRow - 4) * Math.log10(1 + count)) / Math.log10(1 + Math.max(...octaves));
-  return octaves
+/// What the times of a count are below: four an octave from 2^8 ns on, as the daemon counts them.
+function edge_ns(i: number): number {
+  return [32, 38, 45, 54][i % 4]! * 2 ** (3 + Math.floor(i / 4));
+}
+
+/// A column a quarter of an octave, standing on `foot`: as high as the logarithm of how many beats it has, so that a single late one is seen.
+function columns(counts: number[], x: (ns: number) => number, foot: number): string {
+  const height = (count: number) => ((kRow - 4) * Math.log10(1 + count)) / Math.log10(1 + Math.max(...counts));
+  return counts
     .map((count, i) => {
-      const [from, to] = [x(i === 0 ? kLeast_ns : 2 ** (7 + i)), x(2 ** (8 + i))];
+      const [from, to] = [x(i === 0 ? kLeast_ns : edge_ns(i - 1)), x(edge_ns(i))];
       return count === 0 ? "" : `M${from},${foot}v${-height(count)}H${Math.max(to, from + 2)}V${foot}Z`;
     })
     .join("");
