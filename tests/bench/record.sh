@@ -7,11 +7,15 @@ build=$(cd "${1:-build/release}" && pwd)
 seconds=${2:-20}
 home=$(mktemp -d)
 daemon=""
+recorder=""
 clean_up() {
-  [[ -z $daemon ]] || { kill -INT "$daemon" 2> /dev/null && wait "$daemon" 2> /dev/null || true; }
+  for started in $recorder $daemon; do
+    kill -INT "$started" 2> /dev/null && wait "$started" 2> /dev/null || true
+  done
   rm -rf "$home"
 }
 trap clean_up EXIT
+trap 'exit 130' INT TERM
 
 # spacecraft, rate [Hz] of attitude and of momentum each
 for load in "10 100" "20 1000" "50 1000"; do
@@ -36,7 +40,10 @@ partition = "$partition"
 SCENE
   "$build/adstard" "$home/scene.toml" 2> "$home/log" &
   daemon=$!
-  "$build/adstar" list --partition "$partition" --timeout 10s > /dev/null
+  "$build/adstar" list --partition "$partition" --timeout 10s > /dev/null || {
+    cat "$home/log" >&2
+    exit 1
+  }
   "$build/adstar" record "$home/bag.$count" --partition "$partition" --for "${seconds}s" > "$home/said" 2>&1 &
   recorder=$!
   peak=0
@@ -44,11 +51,16 @@ SCENE
   # state, ..., utime and stime, the 12th and 13th after the name; until it has ended
   while read -r -a fields < <(sed 's/.*) //' "/proc/$recorder/stat" 2> /dev/null) && [[ ${fields[0]} != Z ]]; do
     ticks=$((fields[11] + fields[12]))
-    kb=$(awk '/VmRSS/ {print $2}' "/proc/$recorder/status" 2> /dev/null)
+    kb=$(awk '/VmRSS/ {print $2}' "/proc/$recorder/status" 2> /dev/null) || true  # it may have ended just now
     if [[ -n $kb ]] && ((kb > peak)); then peak=$kb; fi
     sleep 0.2
   done
-  wait "$recorder" || true
+  if ! wait "$recorder"; then
+    recorder=""
+    echo "record.sh: \`adstar record\` failed: $(< "$home/said")" >&2
+    exit 1
+  fi
+  recorder=""
   kill -INT "$daemon" && wait "$daemon" || true
   daemon=""
   awk -v t="$ticks" -v hz="$(getconf CLK_TCK)" -v s="$seconds" -v kb="$peak" -v said="$(tail -n 1 "$home/said")" -v want=$((2 * count * hz)) \
