@@ -14,7 +14,7 @@ namespace adstar::propagation {
 struct Listener {
   /// At the start, then as often as the plan says, and at the end.
   std::function<void(std::uint64_t step, std::int64_t time_ns)> row;
-  /// Every few thousand steps of a spacecraft: what it throws ends the flight.
+  /// After steps that took some 10 ms, after each that takes longer: what it throws ends the flight.
   std::function<void(std::uint64_t done, std::int64_t time_ns)> look;
 };
 
