@@ -91,6 +91,83 @@ def test_tells_beside_the_motion_what_the_program_writes_beside_it(scene, durati
             assert table is None, name
 
 
+#: Of every kind, in an order that helps nobody: a free one, wheels, linked bodies, and one of wheels and a target.
+MIXED = """
+[simulation]
+step = "10ms"
+
+[[spacecraft]]
+name = "plain"
+inertia_body_kg_m2 = [0.9144, 1.098, 1.66]
+
+[[spacecraft]]
+name = "long-name-with-wheels"
+inertia_body_kg_m2 = [85.0, 72.0, 68.9]
+wheel = [
+  { name = "x", spin_inertia_kg_m2 = 0.01, axis_body = [1.0, 0.0, 0.0], speed_rad_s = 100.0 },
+  { name = "wheel_of_y", spin_inertia_kg_m2 = 0.01, axis_body = [0.0, 1.0, 0.0], speed_rad_s = -50.0 },
+]
+
+[[spacecraft]]
+name = "linked"
+mass_kg = 80.0
+inertia_body_kg_m2 = [8.0, 9.0, 7.0]
+
+[[spacecraft.chain]]
+name = "link{}"
+count = 2
+from = "hub"
+first_point_from_body_m = [0.5, 0.0, 0.0]
+mass_kg = 3.0
+inertia_body_kg_m2 = [0.01, 0.09, 0.09]
+kind = "revolute"
+axis_body = [0.0, 0.0, 1.0]
+point_from_body_m = [0.3, 0.0, 0.0]
+point_to_body_m = [-0.3, 0.0, 0.0]
+rate = 0.05
+
+[[spacecraft]]
+name = "w"
+inertia_body_kg_m2 = [85.0, 72.0, 68.9]
+angular_velocity_body_rad_s = [0.1, 0.2, 0.3]
+pointing = { frame = "inertial", attitude_body_to_frame = { w = 1.0, x = 0.0, y = 0.0, z = 0.0 } }
+wheel = [{ name = "only", spin_inertia_kg_m2 = 0.01, axis_body = [1.0, 0.0, 0.0], speed_rad_s = 10.0 }]
+"""
+TABLES = {
+    "plain": [],
+    "long-name-with-wheels": ["wheels"],
+    "linked": ["bodies", "joints"],
+    "w": ["wheels", "pointing"],
+}
+
+
+def own_rows(columns, name):
+    own = [i for i, spacecraft in enumerate(columns["spacecraft"]) if spacecraft == name]
+    return {column: [texts[i] for i in own] for column, texts in columns.items()}
+
+
+@pytest.mark.parametrize("chosen", [None, ["w", "linked", "plain", "long-name-with-wheels"], ["w"]])
+def test_of_a_fleet_each_has_the_side_tables_that_are_its_own(chosen, tmp_path):
+    path = tmp_path / "mixed.toml"
+    path.write_text(MIXED)
+    beside = [word for name in ("wheels", "pointing", "bodies", "joints") for word in (f"--{name}", tmp_path / name)]
+    program("propagate", path, "--duration", "250ms", "--every", "100ms", *beside)
+    motions = adstar.load_scene(path).propagate_all(0.25, 0.1, spacecraft=chosen)
+    assert list(motions) == (chosen or list(TABLES))
+    for name, motion in motions.items():
+        for table in ("wheels", "pointing", "bodies", "joints"):
+            if table in TABLES[name]:
+                assert_same_table(getattr(motion, table), own_rows(rows_of((tmp_path / table).read_text()), name))
+            else:
+                assert getattr(motion, table) is None, (name, table)
+
+
+def test_of_a_fleet_no_table_is_a_view_that_keeps_the_others_in_memory():
+    motions = adstar.parse_scene(MIXED).propagate_all(0.1)
+    assert all(motions[name].wheels.base is None for name in ("w", "long-name-with-wheels"))
+    assert len(motions["long-name-with-wheels"].wheels) == 2 * len(motions["w"].wheels) == 22
+
+
 def test_a_row_is_a_step_unless_asked_otherwise_and_the_last_is_always_there():
     scene = adstar.parse_scene(FREE)
     np.testing.assert_array_equal(scene.propagate(0.05).step, range(6))

@@ -1,6 +1,6 @@
 """The motion of one spacecraft, a row an instant."""
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any, Optional
 
 import numpy as np
@@ -66,16 +66,4 @@ SIDE_TABLES = ("wheels", "pointing", "bodies", "joints")
 def motions(run: dict[str, Any], names: list[str]) -> dict[str, Motion]:
     """What _core.Scene.propagate() hands over, by spacecraft."""
     shared = {key: run[key] for key in ("scheme", "step_s", "step", "time_s")}
-    all_of_them = {}
-    for name, arrays in zip(names, run["motions"]):
-        beside: dict[str, Any] = {key: of_spacecraft(run.get(key), name) for key in SIDE_TABLES}
-        all_of_them[name] = Motion(spacecraft=name, **shared, **arrays, **beside)
-    return all_of_them
-
-
-def of_spacecraft(table: Optional[Table], name: str) -> Optional[Table]:
-    """Its rows alone; None when there is none."""
-    if table is None:
-        return None
-    own = table[table["spacecraft"] == name]
-    return own if len(own) else None
+    return {name: Motion(spacecraft=name, **shared, **arrays) for name, arrays in zip(names, run["motions"])}

@@ -172,14 +172,15 @@ class Scene:
         torque: Mapping[str, TorqueTable],
         threads: int,
     ) -> dict[str, Motion]:
-        chosen = [self._core.index_of(name) for name in names]
+        places = {name: index for index, name in enumerate(self.names)}
+        chosen = {name: places[name] if name in places else self._core.index_of(name) for name in names}
         torques = []
         for name, table in torque.items():
-            if name not in names:
+            if name not in chosen:
                 raise ValueError(f"torque: got one on '{name}', which is not among those propagated; leave it out")
             torques.append(
                 _core.AddedTorque(
-                    self._core.index_of(name),
+                    chosen[name],
                     np.asarray(table.time_s, dtype=float),
                     np.asarray(table.torque_n_m, dtype=float),
                     table.frame,
@@ -187,7 +188,7 @@ class Scene:
                     table.after_end,
                 )
             )
-        run = self._core.propagate(chosen, duration_s, every_s, scheme, step_s, torques, threads)
+        run = self._core.propagate(list(chosen.values()), duration_s, every_s, scheme, step_s, torques, threads)
         if run["warning"]:
             warnings.warn(run["warning"], UnresolvedWarning, stacklevel=3)
         return motions(run, names)

@@ -8,18 +8,14 @@ namespace adstar::python {
 
 namespace py = pybind11;
 
-struct Columns::Adds {
-  Column& column;
-
-  void operator()(const std::string& word) const {
-    const auto next = static_cast<std::uint32_t>(column.known.size());
-    column.words.push_back(column.known.emplace(word, next).first->second);
+double number_of(const report::Field& field) {
+  if (const auto* const number = std::get_if<double>(&field)) {
+    return *number;
   }
-  void operator()(std::uint64_t count) const { column.counts.push_back(count); }
-  void operator()(report::Seconds time) const { (*this)(static_cast<double>(time.ns) / 1e9); }
-  void operator()(double number) const { column.numbers.push_back(number); }
-  void operator()(report::Unknown) const { (*this)(std::numeric_limits<double>::quiet_NaN()); }
-};
+  const auto* const time = std::get_if<report::Seconds>(&field);
+  return time != nullptr ? static_cast<double>(time->ns) / 1e9
+                         : std::numeric_limits<double>::quiet_NaN();
+}
 
 Columns::Columns(std::string_view names) {
   while (!names.empty()) {
@@ -31,7 +27,16 @@ Columns::Columns(std::string_view names) {
 
 void Columns::add(const report::Fields& row) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    std::visit(Adds{columns_[i]}, row.all()[i]);
+    Column& column = columns_[i];
+    const report::Field& field = row.all()[i];
+    if (const auto* const word = std::get_if<std::string>(&field)) {
+      const auto next = static_cast<std::uint32_t>(column.known.size());
+      column.words.push_back(column.known.emplace(*word, next).first->second);
+    } else if (const auto* const count = std::get_if<std::uint64_t>(&field)) {
+      column.counts.push_back(*count);
+    } else {
+      column.numbers.push_back(number_of(field));
+    }
   }
   ++rows_;
 }

@@ -14,6 +14,9 @@
 
 namespace adstar::python {
 
+/// As arrays have it: NaN is a number that is not known. Of a word it means nothing.
+double number_of(const report::Field& field);
+
 class Columns {
  public:
   /// `names` between commas, as the CSV has them.
@@ -33,7 +36,6 @@ class Columns {
     std::vector<std::uint32_t> words;  ///< which of known_
     std::map<std::string, std::uint32_t, std::less<>> known;
   };
-  struct Adds;
 
   std::vector<Column> columns_;
   std::size_t rows_ = 0;

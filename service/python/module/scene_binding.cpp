@@ -13,8 +13,8 @@
 #include "service/python/module/asked.hpp"
 #include "service/python/module/attention.hpp"
 #include "service/python/module/bindings.hpp"
-#include "service/python/module/columns.hpp"
 #include "service/python/module/motion_arrays.hpp"
+#include "service/python/module/side_arrays.hpp"
 #include "service/report/numbers.hpp"
 #include "service/scene/complaints.hpp"
 #include "service/scene/nearest.hpp"
@@ -71,19 +71,24 @@ scene::Scene part_of(const scene::Scene& whole, const std::vector<std::size_t>& 
   return part;
 }
 
+runtime::Fleet fleet_of(const scene::Scene& scene, const propagation::Plan& plan,
+                        std::size_t threads) {
+  const py::gil_scoped_release without_gil;
+  return {scene.spacecraft, plan.scheme, scene.simulation.limits, runtime::Lanewise::automatic,
+          threads};
+}
+
 struct Flown {
   const scene::Scene& scene;
   const propagation::Plan& plan;
-  std::size_t threads;
+  runtime::Fleet& fleet;
 };
 
 /// Without the GIL. Fills the arrays, a spacecraft each, and the tables; returns the warning, if there is one.
 std::string fly_into(const Flown& flown, std::vector<MotionArrays>& motions, TimeArrays& times,
-                     std::vector<Columns>& tables) {
+                     std::vector<SideArrays>& tables) {
   const py::gil_scoped_release without_gil;
-  const auto all = propagation::side_tables();
-  runtime::Fleet fleet(flown.scene.spacecraft, flown.plan.scheme, flown.scene.simulation.limits,
-                       runtime::Lanewise::automatic, flown.threads);
+  runtime::Fleet& fleet = flown.fleet;
   std::size_t row = 0;
   Attention attention;
   const propagation::Unresolved unresolved = propagation::fly(
@@ -94,19 +99,16 @@ std::string fly_into(const Flown& flown, std::vector<MotionArrays>& motions, Tim
            motions[i].set(row, runtime::sample(fleet.vehicles()[i]));
          }
          ++row;
-         for (std::size_t i = 0; i < all.size(); ++i) {
-           if (all[i].first(flown.scene.spacecraft) != nullptr) {
-             all[i].rows(flown.scene, fleet, step, time_ns,
-                         [&](const report::Fields& fields) { tables[i].add(fields); });
-           }
+         for (SideArrays& table : tables) {
+           table.add(flown.scene, fleet, step, time_ns);
          }
        },
        [&](std::uint64_t /*done*/, std::int64_t /*time_ns*/) { attention.pay(); }});
   return unresolved.warning(flown.scene, flown.plan, words());
 }
 
-/// A dictionary: "step_s", "scheme", "warning", "step", "time_s", "motions" (a dictionary each, in the order of
-/// `chosen`), and the side tables that have rows.
+/// A dictionary: "step_s", "scheme", "warning", "step", "time_s", and "motions": a dictionary each, in the order of
+/// `chosen`, with the side tables that it has rows in.
 py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& chosen,
                    std::optional<double> duration_s, std::optional<double> every_s,
                    const std::optional<std::string>& scheme, std::optional<double> step_s,
@@ -124,18 +126,24 @@ py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& ch
     request.every_ns = request.step_ns.value_or(scene.simulation.step_ns);
   }
   const propagation::Plan plan = propagation::make_plan(scene, request, words());
+  runtime::Fleet fleet = fleet_of(scene, plan, threads);
+  std::vector<SideArrays> tables;
+  for (const propagation::SideTable& table : propagation::side_tables()) {
+    if (table.first(scene.spacecraft) != nullptr) {
+      tables.emplace_back(table, scene, fleet);
+    }
+  }
   const auto rows = static_cast<py::ssize_t>(propagation::rows_of(plan));
+  for (SideArrays& table : tables) {
+    table.allocate(rows);
+  }
   TimeArrays times(rows);
   std::vector<MotionArrays> motions;
   for (std::size_t i = 0; i < scene.spacecraft.size(); ++i) {
     motions.emplace_back(rows);
   }
-  std::vector<Columns> tables;
-  for (const propagation::SideTable& table : propagation::side_tables()) {
-    tables.emplace_back(table.columns);
-  }
   py::dict run;
-  run["warning"] = fly_into({scene, plan, threads}, motions, times, tables);
+  run["warning"] = fly_into({scene, plan, fleet}, motions, times, tables);
   run["scheme"] = plan.scheme;
   run["step_s"] = seconds<double>(plan.step_ns);
   run["step"] = times.step;
@@ -144,12 +152,10 @@ py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& ch
   for (const MotionArrays& motion : motions) {
     all.append(motion.dictionary());
   }
-  run["motions"] = all;
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    if (!tables[i].empty()) {
-      run[propagation::side_tables()[i].name] = tables[i].array();
-    }
+  for (const SideArrays& table : tables) {
+    table.put_into(all);
   }
+  run["motions"] = all;
   return run;
 }
 
