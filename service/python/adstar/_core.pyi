@@ -1,5 +1,6 @@
 # The compiled part. Its users are the modules beside it: they document, and check nothing twice.
 
+from collections.abc import Callable
 from typing import Any, Optional
 
 import numpy as np
@@ -47,6 +48,7 @@ class Scene:
         step_s: Optional[float],
         torques: list[AddedTorque],
         threads: int,
+        available_bytes: Callable[[], int],
     ) -> dict[str, Any]: ...
     def accuracy(
         self, duration_s: Optional[float], scheme: Optional[str], step_s: Optional[float]

@@ -16,7 +16,8 @@ Table = NDArray[np.void]  #: a structured array: table["speed_rad_s"], pandas.Da
 class Motion:
     """The motion of one spacecraft: n instants, the first is the start. Frames and signs: ``help(adstar)``.
 
-    The columns of ``adstar propagate``, and the residuals that telemetry carries.
+    The columns of ``adstar propagate``, and the residuals that telemetry carries. The motions of a run share
+    ``step`` and ``time_s``, which are read-only: to change them, take a copy, ``motion.time_s.copy()``.
     """
 
     spacecraft: str

@@ -20,7 +20,10 @@ py::array_t<double> array_of(const std::array<double, N>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(N), values.data());
 }
 
+/// Of all spacecraft of a run.
 struct TimeArrays {
+  static constexpr double kBytesARow = 8 + 8;
+
   py::array_t<std::uint64_t> step;
   py::array_t<double> time_s;
 
@@ -32,6 +35,13 @@ struct TimeArrays {
     time_s_[row] = seconds<double>(time_ns);
   }
 
+  /// Under the GIL: read-only from then on, since what is written to one motion would be in all.
+  void close() {
+    for (const py::object& array : {py::object(step), py::object(time_s)}) {
+      array.attr("flags").attr("writeable") = false;
+    }
+  }
+
  private:
   std::uint64_t* step_;
   double* time_s_;
@@ -40,6 +50,8 @@ struct TimeArrays {
 /// Of one spacecraft, by the names that Motion (motion.py) has.
 class MotionArrays {
  public:
+  static constexpr double kBytesARow = (4 + 3 + 3 + 3 + 1 + 1 + 1 + 3) * sizeof(double);
+
   explicit MotionArrays(py::ssize_t rows)
       : q_IB_(rows, 4),
         omega_B_(rows, 3),

@@ -14,6 +14,7 @@
 #include "service/python/module/attention.hpp"
 #include "service/python/module/bindings.hpp"
 #include "service/python/module/motion_arrays.hpp"
+#include "service/python/module/room.hpp"
 #include "service/python/module/side_arrays.hpp"
 #include "service/report/numbers.hpp"
 #include "service/scene/complaints.hpp"
@@ -112,7 +113,8 @@ std::string fly_into(const Flown& flown, std::vector<MotionArrays>& motions, Tim
 py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& chosen,
                    std::optional<double> duration_s, std::optional<double> every_s,
                    const std::optional<std::string>& scheme, std::optional<double> step_s,
-                   const std::vector<AddedTorque>& added, std::size_t threads) {
+                   const std::vector<AddedTorque>& added, std::size_t threads,
+                   const py::function& available_bytes) {
   constexpr std::size_t kMostThreads = 256;
   if (threads < 1 || threads > kMostThreads) {
     throw std::invalid_argument(
@@ -128,11 +130,14 @@ py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& ch
   const propagation::Plan plan = propagation::make_plan(scene, request, words());
   runtime::Fleet fleet = fleet_of(scene, plan, threads);
   std::vector<SideArrays> tables;
+  double bytes_an_instant = TimeArrays::kBytesARow +
+                            MotionArrays::kBytesARow * static_cast<double>(scene.spacecraft.size());
   for (const propagation::SideTable& table : propagation::side_tables()) {
     if (table.first(scene.spacecraft) != nullptr) {
-      tables.emplace_back(table, scene, fleet);
+      bytes_an_instant += tables.emplace_back(table, scene, fleet).bytes_an_instant();
     }
   }
+  require_room(plan, bytes_an_instant, available_bytes);
   const auto rows = static_cast<py::ssize_t>(propagation::rows_of(plan));
   for (SideArrays& table : tables) {
     table.allocate(rows);
@@ -146,6 +151,7 @@ py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& ch
   run["warning"] = fly_into({scene, plan, fleet}, motions, times, tables);
   run["scheme"] = plan.scheme;
   run["step_s"] = seconds<double>(plan.step_ns);
+  times.close();
   run["step"] = times.step;
   run["time_s"] = times.time_s;
   py::list all;
@@ -282,7 +288,8 @@ void bind_scene(py::module_& module) {
           },
           py::arg("index"))
       .def("propagate", propagate, py::arg("spacecraft"), py::arg("duration_s"), py::arg("every_s"),
-           py::arg("scheme"), py::arg("step_s"), py::arg("torques"), py::arg("threads"))
+           py::arg("scheme"), py::arg("step_s"), py::arg("torques"), py::arg("threads"),
+           py::arg("available_bytes"))
       .def("accuracy", accuracy, py::arg("duration_s"), py::arg("scheme"), py::arg("step_s"));
 }
 
