@@ -45,7 +45,7 @@ void require_scheme(const std::string& name, const char* option, const scene::Sc
       forced != nullptr && claims_of(name).free_only) {
     throw Refused(
         fmt::format("{}: got '{}', which knows no torque, and the scene's '{}' "
-                    "names one; try {}",
+                    "has one; try {}",
                     option, name, forced->name, known.front()));
   }
   if (const scene::Spacecraft* with_wheels = scene::first_with_wheels(scene.spacecraft);
