@@ -73,7 +73,7 @@ def test_of_several_spacecraft_one_must_be_named():
         two.propagate(1)
     assert list(two.propagate_all(1)) == ["sat1", "sat2"]
     assert list(two.propagate_all(1, spacecraft=["sat2"])) == ["sat2"]
-    for wrong in ("sat1", [], ["sat1", "sat1"]):
+    for wrong in ([], ["sat1", "sat1"]):
         with pytest.raises(ValueError, match="expected names, each once"):
             two.propagate_all(1, spacecraft=wrong)
 

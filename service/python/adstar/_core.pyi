@@ -1,4 +1,4 @@
-# The compiled part. Its users are the modules beside it: they document, and check nothing twice.
+# The compiled part. Its users are the modules beside it: they document and check types, it checks values.
 
 from collections.abc import Callable
 from typing import Any, Optional
@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Numbers = NDArray[Any]  # integers or floats of any width, that become doubles
 
 __version__: str
 
@@ -17,8 +18,8 @@ class AddedTorque:
     def __init__(
         self,
         spacecraft: int,
-        time_s: Floats,
-        torque_n_m: Floats,
+        time_s: Numbers,
+        torque_n_m: Numbers,
         frame: str,
         interpolation: str,
         after_end: str,
@@ -56,10 +57,10 @@ class Scene:
 
 class Body:
     def __init__(
-        self, inertia_body_kg_m2: Floats, q_IB: Floats, angular_velocity_body_rad_s: Floats, scheme: str
+        self, inertia_body_kg_m2: Numbers, q_IB: Numbers, angular_velocity_body_rad_s: Numbers, scheme: str
     ) -> None: ...
     def step(
-        self, h_s: float, torque_body_n_m: Optional[Floats], torque_inertial_n_m: Optional[Floats]
+        self, h_s: float, torque_body_n_m: Optional[Numbers], torque_inertial_n_m: Optional[Numbers]
     ) -> bool: ...
     @property
     def scheme(self) -> str: ...

@@ -6,7 +6,7 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
+from . import _core, asked
 from .unresolved import UnresolvedWarning
 
 Floats = NDArray[np.float64]
@@ -22,7 +22,7 @@ class Body(_core.Body):
     inertia_body_kg_m2: principal moments (3,), or the tensor (3, 3), about the centre of mass.
     q_IB: w, x, y, z, scalar first, body to inertial, of any length but zero.
     angular_velocity_body_rad_s: (3,).
-    scheme: one of adstar.schemes(). ValueError for what cannot be.
+    scheme: one of adstar.schemes(). ValueError for what cannot be, TypeError for what is of another type.
 
     Where it is now: time_s; q_IB (4,), angular_velocity_body_rad_s, momentum_inertial_n_m_s,
     momentum_body_n_m_s, momentum_residual_inertial_n_m_s (3,); rotational_energy_j, work_j, energy_residual_j.
@@ -37,10 +37,10 @@ class Body(_core.Body):
         scheme: str = "coadjoint_rk4",
     ) -> None:
         super().__init__(
-            np.asarray(inertia_body_kg_m2, dtype=float),
-            np.asarray(q_IB, dtype=float),
-            np.asarray(angular_velocity_body_rad_s, dtype=float),
-            scheme,
+            asked.numbers("inertia_body_kg_m2", inertia_body_kg_m2, "(0.9144, 1.098, 1.66)"),
+            asked.numbers("q_IB", q_IB, "(1.0, 0.0, 0.0, 0.0)"),
+            asked.numbers("angular_velocity_body_rad_s", angular_velocity_body_rad_s, "(0.1, 0.2, 0.3)"),
+            asked.text("scheme", scheme, "coadjoint_rk4"),
         )
 
     @property
@@ -57,11 +57,11 @@ class Body(_core.Body):
         """One step of h_s [s], whole nanoseconds, under torques (3,) [N m] that do not change in their frame.
 
         A turn too large for the scheme is split into parts, as everywhere; UnresolvedWarning when that is not
-        enough.
+        enough. ValueError, TypeError: as of Body itself; nothing is changed.
         """
-        body = None if torque_body_n_m is None else np.asarray(torque_body_n_m, dtype=float)
-        inertial = None if torque_inertial_n_m is None else np.asarray(torque_inertial_n_m, dtype=float)
-        if not super().step(h_s, body, inertial):
+        body = asked.numbers_if("torque_body_n_m", torque_body_n_m, "(0.0, 0.0, 0.01)")
+        inertial = asked.numbers_if("torque_inertial_n_m", torque_inertial_n_m, "(0.0, 0.0, 0.01)")
+        if not super().step(asked.seconds("h_s", h_s), body, inertial):
             warnings.warn(
                 f"{self.scheme} could not follow the step to {self.time_s:g} s; take a shorter h_s",
                 UnresolvedWarning,

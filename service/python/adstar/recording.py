@@ -8,7 +8,7 @@ from typing import Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
+from . import _core, asked
 
 
 class RecordingWarning(UserWarning):
@@ -34,19 +34,13 @@ def read_recording(
 
     Names are text, counts uint64, everything else float64; NaN is a number that was not said. q_w comes first.
     OSError (RecordingError): there is no recording, or it cannot be read. ValueError: a topic or spacecraft that
-    there is not. RecordingWarning: the recording is not whole. Nothing is written there.
+    there is not; TypeError: no list of names. RecordingWarning: the recording is not whole. Nothing is written there.
     """
     tables, said = _core.read_recording(
-        os.fspath(path),
-        None if topics is None else set(_names("topics", topics)),
-        None if spacecraft is None else set(_names("spacecraft", spacecraft)),
+        asked.path("path", path),
+        None if topics is None else set(asked.names("topics", topics, "motion")),
+        None if spacecraft is None else set(asked.names("spacecraft", spacecraft, "sat1")),
     )
     for warning in said:
         warnings.warn(warning, RecordingWarning, stacklevel=2)
     return tables
-
-
-def _names(what: str, names: Sequence[str]) -> Sequence[str]:
-    if isinstance(names, str):
-        raise ValueError(f"{what}: got the text '{names}', expected a list of names; try ['{names}']")
-    return names

@@ -9,7 +9,7 @@ from typing import Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
+from . import _core, asked
 from .memory import available_bytes
 from .motion import Motion, motions
 from .unresolved import UnresolvedWarning
@@ -121,9 +121,9 @@ class Scene:
         Actuators rest: nobody commands them here. A row takes 152 bytes a spacecraft, 16 for its time, and some 100 to
         200 for each row of a table beside it. The GIL is released, and Ctrl-C ends it.
 
-        ValueError: something asked for cannot be; it says what to ask for. MemoryError: the rows do not fit in the
-        memory that is free; nothing was run, and it says which every_s does. UnresolvedWarning: the scheme could
-        not follow the motion.
+        ValueError: something asked for cannot be; it says what to ask for. TypeError: it is of another type.
+        MemoryError: the rows do not fit in the memory that is free; nothing was run, and it says which every_s does.
+        UnresolvedWarning: the scheme could not follow the motion.
         """
         name = self._one(spacecraft)
         added = {} if torque is None else {name: torque}
@@ -145,10 +145,14 @@ class Scene:
         torque: by the name of the spacecraft that it acts on. threads: for large fleets; the bits are the same.
         All else is as in propagate().
         """
-        names = self.names if spacecraft is None else list(spacecraft)
-        if not names or isinstance(spacecraft, str) or len(set(names)) < len(names):
-            raise ValueError(f"spacecraft: got {spacecraft!r}, expected names, each once; try {self.names[:2]}")
-        return self._propagated(names, duration_s, every_s, scheme, step_s, torque or {}, threads)
+        names = self.names if spacecraft is None else asked.names("spacecraft", spacecraft, self.names[0])
+        if not names or len(set(names)) < len(names):
+            raise ValueError(f"spacecraft: got {names!r}, expected names, each once; try {self.names[:2]}")
+        added = {} if torque is None else torque
+        if not isinstance(added, Mapping):
+            example = f"{{'{names[0]}': adstar.TorqueTable(...)}}"
+            raise asked.wrong_type("torque", torque, "tables by spacecraft", example)
+        return self._propagated(names, duration_s, every_s, scheme, step_s, added, threads)
 
     def accuracy(
         self,
@@ -162,7 +166,13 @@ class Scene:
         The truth of a free body is the closed form, of a forced one an order-8 run refined until it agrees with
         itself, both in long double; that takes longer than the run that is judged.
         """
-        return Accuracy(**self._core.accuracy(duration_s, scheme, step_s))
+        return Accuracy(
+            **self._core.accuracy(
+                asked.seconds_if("duration_s", duration_s),
+                asked.text_if("scheme", scheme, "coadjoint_rk4"),
+                asked.seconds_if("step_s", step_s),
+            )
+        )
 
     def _propagated(
         self,
@@ -180,18 +190,16 @@ class Scene:
         for name, table in torque.items():
             if name not in chosen:
                 raise ValueError(f"torque: got one on '{name}', which is not among those propagated; leave it out")
-            torques.append(
-                _core.AddedTorque(
-                    chosen[name],
-                    np.asarray(table.time_s, dtype=float),
-                    np.asarray(table.torque_n_m, dtype=float),
-                    table.frame,
-                    table.interpolation,
-                    table.after_end,
-                )
-            )
+            torques.append(_added(chosen[name], table))
         run = self._core.propagate(
-            list(chosen.values()), duration_s, every_s, scheme, step_s, torques, threads, available_bytes
+            list(chosen.values()),
+            asked.seconds_if("duration_s", duration_s),
+            asked.seconds_if("every_s", every_s),
+            asked.text_if("scheme", scheme, "coadjoint_rk4"),
+            asked.seconds_if("step_s", step_s),
+            torques,
+            asked.count("threads", threads, 256),
+            available_bytes,
         )
         if run["warning"]:
             warnings.warn(run["warning"], UnresolvedWarning, stacklevel=3)
@@ -199,7 +207,7 @@ class Scene:
 
     def _one(self, name: Optional[str]) -> str:
         if name is not None:
-            return name
+            return asked.text("spacecraft", name, self.names[0])
         names = self.names
         if len(names) > 1:
             some = ", ".join(names[:10]) + (", ..." if len(names) > 10 else "")
@@ -217,16 +225,31 @@ class Scene:
         )
 
 
+def _added(spacecraft: int, table: TorqueTable) -> _core.AddedTorque:
+    if not isinstance(table, TorqueTable):
+        example = "adstar.TorqueTable([0.0], [[0.0, 0.0, 0.01]])"
+        raise asked.wrong_type("torque", table, "an adstar.TorqueTable", example)
+    return _core.AddedTorque(
+        spacecraft,
+        asked.numbers("time_s", table.time_s, "[0.0]"),
+        asked.numbers("torque_n_m", table.torque_n_m, "[[0.0, 0.0, 0.01]]"),
+        asked.text("frame", table.frame, "body"),
+        asked.text("interpolation", table.interpolation, "hold"),
+        asked.text("after_end", table.after_end, "zero"),
+    )
+
+
 def load_scene(path: Union[str, "os.PathLike[str]"]) -> Scene:
     """Reads and validates a scene (service/scene/README.md has every key). Tables are looked up beside it.
 
     SceneError (a ValueError): every complaint at once, a line each, with line, column and remedy.
     """
-    file = os.fspath(path)
+    file = asked.path("path", path)
     return Scene(_core.Scene.load(file), file)
 
 
 def parse_scene(text: str, file: str = "scene.toml") -> Scene:
     """The same from TOML in a string, for studies that vary a number. ``file`` is what complaints call it; tables
     are looked up beside it."""
-    return Scene(_core.Scene.parse(text, file), file)
+    file = asked.path("file", file)
+    return Scene(_core.Scene.parse(asked.text("text", text, "[simulation]"), file), file)

@@ -115,11 +115,6 @@ py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& ch
                    const std::optional<std::string>& scheme, std::optional<double> step_s,
                    const std::vector<AddedTorque>& added, std::size_t threads,
                    const py::function& available_bytes) {
-  constexpr std::size_t kMostThreads = 256;
-  if (threads < 1 || threads > kMostThreads) {
-    throw std::invalid_argument(
-        fmt::format("threads: got {}, expected 1 to {}; try 1", threads, kMostThreads));
-  }
   const scene::Scene scene = part_of(whole, chosen, added);
   propagation::Request request{whole_nanoseconds("duration_s", duration_s),
                                whole_nanoseconds("step_s", step_s),
