@@ -134,13 +134,15 @@ Scene parse(std::string_view text, const std::filesystem::path& file, Tables tab
   return scene;
 }
 
-Scene load(const std::filesystem::path& file) {
-  const FileText text = read_file(file);
+std::string text_of(const std::filesystem::path& file) {
+  FileText text = read_file(file);
   if (!text.error.empty()) {
     throw SceneError({complaint_line(file.string(), {}, "file", text.error,
                                      "a scene that can be read", nearest_file(file, ".toml"))});
   }
-  return parse(text.text, file);
+  return std::move(text.text);
 }
+
+Scene load(const std::filesystem::path& file) { return parse(text_of(file), file); }
 
 }  // namespace adstar::scene

@@ -222,6 +222,9 @@ class SceneError : public std::runtime_error {
 
 enum class Tables { read, skip };
 
+/// The text of a scene file; throws SceneError when it cannot be read.
+std::string text_of(const std::filesystem::path& file);
+
 /// Reads and validates; throws SceneError. Tables are looked up beside the scene file.
 Scene load(const std::filesystem::path& file);
 

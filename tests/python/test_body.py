@@ -1,9 +1,13 @@
 """One body, a step at a time."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
 import adstar
+from adstar import _core
 from test_scene import FREE
 
 INERTIA = (0.9144, 1.098, 1.66)
@@ -98,6 +102,32 @@ def test_a_refused_step_changes_nothing():
     assert body.time_s == 0
     body.step(1)
     assert body.time_s == 1
+
+
+def test_its_clock_ends_before_it_would_run_over():
+    body = adstar.Body(INERTIA)
+    body.step(2e9)
+    said = r"h_s: got 400000000, expected at most the 305843009\.213693952 that this body's clock has left; try "
+    with pytest.raises(ValueError, match=said):
+        body.step(4e8)
+    assert body.time_s == 2e9
+    body.step(3e8)
+    assert body.time_s == 2.3e9
+
+
+@pytest.mark.parametrize("copies", [pickle.dumps, copy.copy, copy.deepcopy])
+def test_a_body_that_is_pickled_or_copied_says_what_to_do_instead(copies):
+    with pytest.raises(TypeError, match="a Body is neither pickled nor copied; make another of its inertia, q_IB"):
+        copies(adstar.Body(INERTIA))
+
+
+@pytest.mark.parametrize("made", [adstar.Body, _core.Body])
+def test_a_body_that_nobody_made_says_so(made):
+    nothing = made.__new__(made)
+    for use in (lambda: nothing.q_IB, lambda: nothing.time_s, lambda: _core.Body.step(nothing, 1, None, None)):
+        with pytest.raises(TypeError, match=r"its __init__\(\) was not called"):
+            use()
+    del nothing
 
 
 def test_warns_of_a_step_that_cannot_be_followed():

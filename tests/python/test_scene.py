@@ -1,9 +1,14 @@
 """Scenes: what is in them, and what is said of those that are wrong."""
 
+import copy
+import multiprocessing
+import pickle
+
 import numpy as np
 import pytest
 
 import adstar
+from adstar import _core
 from programs import PROGRAMS, SCENES, adstar as program
 
 FREE = """
@@ -76,6 +81,44 @@ def test_of_several_spacecraft_one_must_be_named():
     for wrong in ([], ["sat1", "sat1"]):
         with pytest.raises(ValueError, match="expected names, each once"):
             two.propagate_all(1, spacecraft=wrong)
+
+
+def assert_same_scene(scene, again):
+    assert (again.file, again.names, again.scheme) == (scene.file, scene.names, scene.scheme)
+    motion, motion_again = scene.propagate(40, 20), again.propagate(40, 20)
+    np.testing.assert_array_equal(motion_again.q_IB, motion.q_IB)
+    np.testing.assert_array_equal(motion_again.work_j, motion.work_j)
+
+
+def test_a_scene_is_pickled_as_what_it_was_read_from():
+    for scene in (adstar.load_scene(SCENES / "profile_table.toml"), adstar.parse_scene(FREE, "my.toml")):
+        assert_same_scene(scene, pickle.loads(pickle.dumps(scene)))
+        assert_same_scene(scene, copy.deepcopy(scene))
+
+
+def test_a_pickled_scene_is_as_its_file_was_then(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(FREE)
+    scene = adstar.load_scene(path)
+    path.unlink()
+    assert_same_scene(scene, pickle.loads(pickle.dumps(scene)))
+
+
+def test_a_scene_is_had_by_worker_processes_and_motions_come_back():
+    scene = adstar.parse_scene(FREE)
+    with multiprocessing.get_context("spawn").Pool(1) as workers:
+        (motion,) = workers.map(scene.propagate, [1])
+    np.testing.assert_array_equal(motion.q_IB, scene.propagate(1).q_IB)
+
+
+@pytest.mark.parametrize("made", [_core.Scene, _core.AddedTorque])
+def test_an_object_that_nobody_made_says_so(made):
+    nothing = made.__new__(made)
+    with pytest.raises(TypeError, match=r"its __init__\(\) was not called"):
+        if made is _core.Scene:
+            nothing.names
+        else:
+            _core.Scene.parse(FREE, "x").propagate([0], 1, 1, None, None, [nothing], 1, lambda: 0)
 
 
 def test_the_version_is_the_programs():

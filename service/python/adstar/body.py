@@ -1,7 +1,7 @@
 """One rigid body, a step at a time: for control loops of your own, and to see what a scheme does in one step."""
 
 import warnings
-from typing import Optional
+from typing import NoReturn, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,6 +43,12 @@ class Body(_core.Body):
             asked.text("scheme", scheme, "coadjoint_rk4"),
         )
 
+    def __reduce__(self) -> NoReturn:
+        raise TypeError(
+            "a Body is neither pickled nor copied; make another of its inertia, q_IB, angular_velocity_body_rad_s and "
+            "scheme, whose clock and accounts begin anew"
+        )
+
     @property
     def q_IB_xyzw(self) -> Floats:
         """(4,) q_IB with the scalar LAST."""
@@ -57,7 +63,7 @@ class Body(_core.Body):
         """One step of h_s [s], whole nanoseconds, under torques (3,) [N m] that do not change in their frame.
 
         A turn too large for the scheme is split into parts, as everywhere; UnresolvedWarning when that is not
-        enough. ValueError, TypeError: as of Body itself; nothing is changed.
+        enough. ValueError, TypeError: as of Body itself, and when its clock has run for 73 years; nothing is changed.
         """
         body = asked.numbers_if("torque_body_n_m", torque_body_n_m, "(0.0, 0.0, 0.01)")
         inertial = asked.numbers_if("torque_inertial_n_m", torque_inertial_n_m, "(0.0, 0.0, 0.01)")

@@ -2,7 +2,7 @@
 
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Optional, Union
 
@@ -67,11 +67,18 @@ class Accuracy:
 
 
 class Scene:
-    """A validated scene. Made by load_scene() or parse_scene(); it never changes."""
+    """A validated scene. Made by load_scene() or parse_scene(); it never changes.
+
+    It can be pickled, so worker processes may have it: as its text, and read anew from that. Tables of the scene are
+    read anew too, beside where its file was.
+    """
 
     def __init__(self, core: _core.Scene, file: str) -> None:
         self._core = core
         self._file = file
+
+    def __reduce__(self) -> tuple[Callable[[str, str], "Scene"], tuple[str, str]]:
+        return parse_scene, (self._core.text, self._file)
 
     @property
     def file(self) -> str:

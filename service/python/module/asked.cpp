@@ -18,9 +18,6 @@ namespace adstar::python {
 namespace {
 
 constexpr double kNanosecondsASecond = 1e9;
-/// 73 years, as far as differences of times are safe.
-constexpr double kFarthestNs = 0x1p61;
-
 [[noreturn]] void refuse(std::string_view name, const std::string& got, std::string_view expected,
                          std::string_view remedy) {
   throw std::invalid_argument(
@@ -65,8 +62,9 @@ std::size_t choice(const char* name, const std::string& got,
 /// Nearest; nothing when it is out of range or no number.
 std::optional<std::int64_t> nearest_nanosecond(double seconds) {
   const double ns = seconds * kNanosecondsASecond;
-  return std::fabs(ns) < kFarthestNs ? std::optional(static_cast<std::int64_t>(std::llround(ns)))
-                                     : std::nullopt;
+  return std::fabs(ns) < static_cast<double>(kFarthestNs)
+             ? std::optional(static_cast<std::int64_t>(std::llround(ns)))
+             : std::nullopt;
 }
 
 }  // namespace

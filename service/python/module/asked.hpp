@@ -20,6 +20,9 @@ namespace py = pybind11;
 /// Contiguous doubles, converted where they are not.
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
+/// 73 years: so far differences of times are safe.
+inline constexpr std::int64_t kFarthestNs = std::int64_t{1} << 61;
+
 /// How Python's callers write a request: "step_s=0.01".
 const propagation::Words& words();
 

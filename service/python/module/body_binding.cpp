@@ -13,12 +13,14 @@
 #include "service/python/module/asked.hpp"
 #include "service/python/module/bindings.hpp"
 #include "service/python/module/motion_arrays.hpp"
+#include "service/python/module/whole.hpp"
+#include "service/report/numbers.hpp"
 #include "service/runtime/fleet.hpp"
 
 namespace adstar::python {
 namespace {
 
-class Body {
+class Body : public Whole {
  public:
   Body(const Eigen::Matrix3d& inertia_body_kg_m2, const Quat<double>& q_IB,
        const Vec3<double>& omega_B, const std::string& scheme)
@@ -33,6 +35,12 @@ class Body {
   bool step(double h_s, const std::optional<Doubles>& torque_body_n_m,
             const std::optional<Doubles>& torque_inertial_n_m) {
     const std::int64_t h_ns = whole_nanoseconds("h_s", h_s);
+    if (h_ns > kFarthestNs - time_ns_) {
+      throw std::invalid_argument(
+          fmt::format("h_s: got {}, expected at most the {} that this body's clock has left; try a "
+                      "new Body, from where this one is",
+                      report::seconds_text(h_ns), report::seconds_text(kFarthestNs - time_ns_)));
+    }
     std::vector<Torque<double>>& torques = fleet_.vehicles().front().torques;
     torques.clear();
     if (torque_body_n_m) {
@@ -116,7 +124,7 @@ void bind_body(py::module_& module) {
   py::class_<Body> body(module, "Body");
   body.def(py::init([](const Doubles& inertia_body_kg_m2, const Doubles& q_IB,
                        const Doubles& angular_velocity_body_rad_s, const std::string& scheme) {
-             return Body(
+             return ::new Body(
                  inertia_of("inertia_body_kg_m2", inertia_body_kg_m2), quaternion_of("q_IB", q_IB),
                  vector_of("angular_velocity_body_rad_s", angular_velocity_body_rad_s), scheme);
            }),

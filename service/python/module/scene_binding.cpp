@@ -1,5 +1,6 @@
 // Scene, SceneError, propagate() and accuracy(): what `adstar propagate` and `adstar trade` do, into NumPy.
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@
 #include "service/python/module/motion_arrays.hpp"
 #include "service/python/module/room.hpp"
 #include "service/python/module/side_arrays.hpp"
+#include "service/python/module/whole.hpp"
 #include "service/report/numbers.hpp"
 #include "service/scene/complaints.hpp"
 #include "service/scene/nearest.hpp"
@@ -25,19 +27,34 @@
 namespace adstar::python {
 namespace {
 
-struct AddedTorque {
+/// With its text, for whoever has to make it again.
+struct ReadScene : Whole {
+  scene::Scene scene;
+  std::string text;
+};
+
+std::unique_ptr<ReadScene> parse(const std::string& text, const std::string& file) {
+  return std::unique_ptr<ReadScene>(::new ReadScene{{}, scene::parse(text, file), text});
+}
+
+std::unique_ptr<ReadScene> load(const std::string& file) {
+  return parse(scene::text_of(file), file);
+}
+
+struct AddedTorque : Whole {
   std::size_t spacecraft = 0;  ///< by its index in the scene
   Table<double> table;
 };
 
 /// Throws std::invalid_argument for a name that there is not.
-std::size_t index_of(const scene::Scene& scene, const std::string& name) {
+std::size_t index_of(const ReadScene& read, const std::string& name) {
+  const std::vector<scene::Spacecraft>& spacecraft = read.scene.spacecraft;
   std::vector<std::string_view> known;
-  for (std::size_t i = 0; i < scene.spacecraft.size(); ++i) {
-    if (scene.spacecraft[i].name == name) {
+  for (std::size_t i = 0; i < spacecraft.size(); ++i) {
+    if (spacecraft[i].name == name) {
       return i;
     }
-    known.push_back(scene.spacecraft[i].name);
+    known.push_back(spacecraft[i].name);
   }
   constexpr std::size_t kMostNamed = 10;
   const auto near = scene::nearest_plausible(name, known);
@@ -110,12 +127,12 @@ std::string fly_into(const Flown& flown, std::vector<MotionArrays>& motions, Tim
 
 /// A dictionary: "step_s", "scheme", "warning", "step", "time_s", and "motions": a dictionary each, in the order of
 /// `chosen`, with the side tables that it has rows in.
-py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& chosen,
+py::dict propagate(const ReadScene& whole, const std::vector<std::size_t>& chosen,
                    std::optional<double> duration_s, std::optional<double> every_s,
                    const std::optional<std::string>& scheme, std::optional<double> step_s,
                    const std::vector<AddedTorque>& added, std::size_t threads,
                    const py::function& available_bytes) {
-  const scene::Scene scene = part_of(whole, chosen, added);
+  const scene::Scene scene = part_of(whole.scene, chosen, added);
   propagation::Request request{whole_nanoseconds("duration_s", duration_s),
                                whole_nanoseconds("step_s", step_s),
                                whole_nanoseconds("every_s", every_s), scheme};
@@ -161,8 +178,9 @@ py::dict propagate(const scene::Scene& whole, const std::vector<std::size_t>& ch
 }
 
 /// Largest errors of the scheme against the truth, at up to ten instants.
-py::dict accuracy(const scene::Scene& scene, std::optional<double> duration_s,
+py::dict accuracy(const ReadScene& read, std::optional<double> duration_s,
                   const std::optional<std::string>& scheme, std::optional<double> step_s) {
+  const scene::Scene& scene = read.scene;
   const propagation::Request request{
       whole_nanoseconds("duration_s", duration_s), whole_nanoseconds("step_s", step_s), {}, scheme};
   const propagation::Plan plan = propagation::make_plan(scene, request, words());
@@ -233,9 +251,9 @@ py::dict described(const scene::Spacecraft& craft) {
   return all;
 }
 
-std::vector<std::string> names_of(const scene::Scene& scene) {
+std::vector<std::string> names_of(const ReadScene& read) {
   std::vector<std::string> names;
-  for (const scene::Spacecraft& craft : scene.spacecraft) {
+  for (const scene::Spacecraft& craft : read.scene.spacecraft) {
     names.push_back(craft.name);
   }
   return names;
@@ -254,32 +272,31 @@ void bind_scene(py::module_& module) {
       .def(py::init([](std::size_t spacecraft, const Doubles& time_s, const Doubles& torque_n_m,
                        const std::string& frame, const std::string& interpolation,
                        const std::string& after_end) {
-             return AddedTorque{spacecraft,
-                                table_of(time_s, torque_n_m, frame, interpolation, after_end)};
+             return ::new AddedTorque{
+                 {}, spacecraft, table_of(time_s, torque_n_m, frame, interpolation, after_end)};
            }),
            py::arg("spacecraft"), py::arg("time_s"), py::arg("torque_n_m"), py::arg("frame"),
            py::arg("interpolation"), py::arg("after_end"));
-  py::class_<scene::Scene>(module, "Scene")
-      .def_static(
-          "load", [](const std::string& file) { return scene::load(file); }, py::arg("file"))
-      .def_static(
-          "parse",
-          [](const std::string& text, const std::string& file) { return scene::parse(text, file); },
-          py::arg("text"), py::arg("file"))
+  py::class_<ReadScene>(module, "Scene")
+      .def_static("load", load, py::arg("file"))
+      .def_static("parse", parse, py::arg("text"), py::arg("file"))
+      .def_property_readonly("text", [](const ReadScene& read) { return read.text; })
       .def_property_readonly(
-          "step_s", [](const scene::Scene& s) { return seconds<double>(s.simulation.step_ns); })
+          "step_s",
+          [](const ReadScene& read) { return seconds<double>(read.scene.simulation.step_ns); })
       .def_property_readonly("duration_s",
-                             [](const scene::Scene& s) {
-                               const auto& ns = s.simulation.duration_ns;
+                             [](const ReadScene& read) {
+                               const auto& ns = read.scene.simulation.duration_ns;
                                return ns ? std::optional(seconds<double>(*ns)) : std::nullopt;
                              })
-      .def_property_readonly("scheme", [](const scene::Scene& s) { return s.simulation.scheme; })
+      .def_property_readonly("scheme",
+                             [](const ReadScene& read) { return read.scene.simulation.scheme; })
       .def_property_readonly("names", names_of)
       .def("index_of", index_of, py::arg("spacecraft"))
       .def(
           "described",
-          [](const scene::Scene& scene, std::size_t i) {
-            return described(scene.spacecraft.at(i));
+          [](const ReadScene& read, std::size_t i) {
+            return described(read.scene.spacecraft.at(i));
           },
           py::arg("index"))
       .def("propagate", propagate, py::arg("spacecraft"), py::arg("duration_s"), py::arg("every_s"),
