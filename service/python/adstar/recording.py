@@ -34,7 +34,8 @@ def read_recording(
 
     Names are text, counts uint64, everything else float64; NaN is a number that was not said. q_w comes first.
     OSError (RecordingError): there is no recording, or it cannot be read. ValueError: a topic or spacecraft that
-    there is not; TypeError: no list of names. RecordingWarning: the recording is not whole. Nothing is written there.
+    there is not; TypeError: no list of names. RecordingWarning: the recording is not whole. No message is
+    changed; files that were left with a log beside them take it in, where they may be written.
     """
     tables, said = _core.read_recording(
         asked.path("path", path),
