@@ -68,7 +68,7 @@ std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& si
   std::string text = fmt::format("    {:<20} {:>7.0f} ns\n", "rigid body", base);
   std::set<std::string_view> told;
   for (const Torque<double>& torque : craft.torques) {
-    // Of linked bodies each has its own gravity.
+    // Of linked bodies each has its own gravity, and its own outside.
     const std::string_view name =
         std::visit([](const auto& m) -> std::string_view { return m.kName; }, torque);
     if (craft.linked && !told.insert(name).second) {
@@ -105,8 +105,7 @@ std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& si
   return text;
 }
 
-std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>& accuracy,
-                     bool can_be_named) {
+std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>& accuracy) {
   if (!estimate.torque_n_m) {
     return "not estimable about another body than the Earth";
   }
@@ -116,8 +115,7 @@ std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>
   if (accuracy && estimate.modelled && estimate.turn_rad < *accuracy) {
     text += fmt::format(": WARNING, below the {:.0e} rad asked for; leave it out", *accuracy);
   } else if (accuracy && !estimate.modelled && estimate.turn_rad > *accuracy) {
-    text += fmt::format(": WARNING, above the {:.0e} rad asked for{}", *accuracy,
-                        can_be_named ? "; name it" : ", and linked bodies cannot have it");
+    text += fmt::format(": WARNING, above the {:.0e} rad asked for; name it", *accuracy);
   }
   return text;
 }
@@ -129,11 +127,9 @@ std::string worths_of(const scene::Spacecraft& craft, const scene::Simulation& s
     return text + "    not estimable without an orbit\n";
   }
   for (const TorqueEstimate& estimate : estimates_of(craft, horizon)) {
-    const bool can_be_named =
-        !craft.linked || std::string_view(estimate.model) == GravityGradient<double>::kName;
     text += fmt::format("    {:<17} {:<12} {}\n", estimate.model,
                         estimate.modelled ? "modelled" : "left out",
-                        worth_of(estimate, simulation.accuracy_rad, can_be_named));
+                        worth_of(estimate, simulation.accuracy_rad));
   }
   return text;
 }

@@ -13,6 +13,7 @@
 
 #include "adstar/bodies/gyrostat.hpp"
 #include "adstar/earth/rotation.hpp"
+#include "adstar/multibody/forced.hpp"
 #include "service/report/numbers.hpp"
 
 namespace adstar::report {
@@ -120,7 +121,8 @@ std::string torque_text(const scene::Spacecraft& craft, std::size_t i) {
       craft.torques[i]);
 }
 
-/// Of linked bodies: on which one it acts, and whether to tell of it: gravity acts on each, and is told of once.
+/// Of linked bodies: on which one it acts, and whether to tell of it: gravity acts on each, and is told of once, as is
+/// what pushes many.
 std::string acts_on(const scene::Spacecraft& craft, std::size_t i, bool& tell) {
   const auto next = std::upper_bound(craft.first_torque.begin(), craft.first_torque.end(), i);
   const auto body = static_cast<std::size_t>(next - craft.first_torque.begin()) - 1;
@@ -128,7 +130,17 @@ std::string acts_on(const scene::Spacecraft& craft, std::size_t i, bool& tell) {
     tell = body == 0;
     return ", of the hub, and on each body its own";
   }
-  return fmt::format(", on '{}'", craft.linked->bodies[body].name);
+  constexpr std::ptrdiff_t kFew = 4;
+  const auto& all = craft.torques;
+  const auto alike = [&](const Torque<double>& other) { return other.index() == all[i].index(); };
+  const auto count = std::count_if(all.begin(), all.end(), alike);
+  std::string on = fmt::format(", on '{}'", craft.linked->bodies[body].name);
+  if (multibody::pushes(all[i]) && count > kFew) {
+    tell =
+        std::find_if(all.begin(), all.end(), alike) - all.begin() == static_cast<std::ptrdiff_t>(i);
+    on += fmt::format(" and {} others, each by its own outside", count - 1);
+  }
+  return on;
 }
 
 std::string torque_lines(const scene::Spacecraft& craft) {

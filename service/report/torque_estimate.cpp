@@ -22,13 +22,26 @@ Cube cube_of(double moment_kg_m2) {
   return {side, kDensity_kg_m3 * side * side * side};
 }
 
+/// What pushes a linked body turns the whole by its arm too, as it is at the start.
+double arm_of(const scene::Spacecraft& craft, std::size_t torque) {
+  if (!craft.linked) {
+    return 0;
+  }
+  const auto next = std::upper_bound(craft.first_torque.begin(), craft.first_torque.end(), torque);
+  const auto body = static_cast<std::size_t>(next - craft.first_torque.begin()) - 1;
+  return norm(craft.linked->bodies[body].x_I);
+}
+
 /// All that are modelled push the same way, at most. None: there is none of them.
 template <class Model>
 std::optional<double> bound_of_all(const scene::Spacecraft& craft) {
   std::optional<double> sum;
-  for (const Torque<double>& torque : craft.torques) {
-    if (const auto* const model = std::get_if<Model>(&torque)) {
+  for (std::size_t i = 0; i < craft.torques.size(); ++i) {
+    if (const auto* const model = std::get_if<Model>(&craft.torques[i])) {
       sum = sum.value_or(0) + model->bound();
+      if constexpr (requires { model->force_bound(); }) {
+        *sum += model->force_bound() * arm_of(craft, i);
+      }
     }
   }
   return sum;

@@ -60,9 +60,7 @@ void observe(Vehicle& vehicle, std::int64_t t_ns) noexcept {
         adstar::detail::make_segment(multibody::torques_of(flight, torques, i), t_ns);
   }
   multibody::observe(flight.assembly, flight.work, flight.state, flight.motor_torques.data(),
-                     [&](const multibody::LoadStage<double>& stage) {
-                       return multibody::load_of(flight, torques, seconds<double>(t_ns), stage);
-                     });
+                     multibody::FlightLoad<double>{flight, torques, seconds<double>(t_ns)});
 }
 
 BodyRecord sample_body(const Vehicle& vehicle, std::size_t body) noexcept {

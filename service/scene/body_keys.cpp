@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "service/scene/facet_keys.hpp"
 #include "service/scene/fleet.hpp"
 #include "service/scene/inertia.hpp"
 #include "service/scene/joint_keys.hpp"
@@ -48,9 +49,10 @@ class LinkedReader {
     const auto name = read_name(name_value, "\"panel\"");
     const double mass = read_mass(keys);
     const auto inertia = read_body_inertia(keys);
+    const Facets<double> outside = read_facets(keys);
     keys.refuse_unknown();
     if (name && inertia) {
-      add_body(name_value, *name, mass, *inertia);
+      add_body(name_value, *name, mass, *inertia, outside);
     }
   }
 
@@ -87,6 +89,7 @@ class LinkedReader {
     const auto first = read_vector(first_value, kPoint);
     const double mass = read_mass(keys);
     const auto inertia = read_body_inertia(keys);
+    const Facets<double> outside = read_facets(keys);
     const auto read = read_joint_keys(keys);
     keys.refuse_unknown();
     if (!count || !pattern || from < 0 || !inertia || !read) {
@@ -95,7 +98,7 @@ class LinkedReader {
     int last = from;
     for (std::int64_t i = 0; i < *count; ++i) {
       const std::string name = pattern->name(static_cast<std::uint64_t>(i));
-      const int body = add_body(name_value, name, mass, *inertia);
+      const int body = add_body(name_value, name, mass, *inertia, outside);
       if (body < 0) {
         return;
       }
@@ -147,7 +150,7 @@ class LinkedReader {
   }
 
   int add_body(const Value& where, const std::string& name, double mass,
-               const Eigen::Matrix3d& inertia) {
+               const Eigen::Matrix3d& inertia, const Facets<double>& outside) {
     if (place_of(name) >= 0 || name == "ground") {
       where.refuse_as(in_quotes(name) + " again", "a name of its own for each body; the hub is hub",
                       in_quotes(name + "2"));
@@ -163,6 +166,7 @@ class LinkedReader {
     body.mass_kg = mass;
     body.inertia_B = inertia;
     plan_.linked.bodies.push_back(std::move(body));
+    plan_.outsides.push_back(outside);
     return static_cast<int>(plan_.linked.bodies.size()) - 1;
   }
 
@@ -240,7 +244,7 @@ bool names_some(const Value& value) {
 
 }  // namespace
 
-std::unique_ptr<LinkedPlan> read_linked(Keys& spacecraft) {
+std::unique_ptr<LinkedPlan> read_linked(Keys& spacecraft, const Facets<double>& outside) {
   const Value bodies = spacecraft.optional("body"), joints = spacecraft.optional("joint"),
               chains = spacecraft.optional("chain"), mass = spacecraft.optional("mass_kg"),
               linking = spacecraft.optional("formulation");
@@ -266,6 +270,7 @@ std::unique_ptr<LinkedPlan> read_linked(Keys& spacecraft) {
   hub.name = kHub;
   hub.mass_kg = read_positive(mass, hub_mass).value_or(1);
   plan->linked.bodies.push_back(hub);
+  plan->outsides.push_back(outside);
   LinkedReader reader(*plan);
   for_each_block(bodies, "[[spacecraft.body]], in double brackets",
                  [&](const Value& value) { reader.read_body(value); });

@@ -18,11 +18,12 @@ struct LinkedPlan {
   std::vector<multibody::JointStart<double>> starts;  ///< by joint
   std::vector<Value> joint_values;                    ///< by joint, where each was named
   std::vector<Actuator> actuators;                    ///< commanded motors
+  std::vector<Facets<double>> outsides;               ///< by body; null: it names none
   Value where;                                        ///< for what is wrong with the whole
 };
 
-/// Of the spacecraft's table; null when it is one body.
-std::unique_ptr<LinkedPlan> read_linked(Keys& spacecraft);
+/// Of the spacecraft's table, with what it says of the hub's outside; null when it is one body.
+std::unique_ptr<LinkedPlan> read_linked(Keys& spacecraft, const Facets<double>& outside);
 
 /// Of the whole about the common centre of mass [N m s].
 Vec3<double> momentum_of(const LinkedBodies& linked);

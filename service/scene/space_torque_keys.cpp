@@ -36,7 +36,9 @@ const Facets<double>* need_facets(Keys& keys, const TorqueContext& context,
                                   std::string_view model) {
   if (context.facets == nullptr) {
     keys.complaints().add(keys.place(), keys.path() + ".model", in_quotes(model),
-                          "an outside of the spacecraft beside it",
+                          context.linked == nullptr
+                              ? "an outside of the spacecraft beside it"
+                              : "an outside of the body that it acts on: a box or facets",
                           "[spacecraft.box] with size_m = [1.0, 1.0, 2.0]");
     return nullptr;
   }

@@ -113,7 +113,8 @@ Plan read_plan(Keys& keys, TorqueContext context) {
   plan.orbit = read_orbit(
       orbit, {context.scene_file, context.tables, context.earth ? &context.earth->epoch : nullptr});
   context.has_orbit = static_cast<bool>(orbit);
-  plan.linked = read_linked(keys);
+  context.facets = read_facets(keys);
+  plan.linked = read_linked(keys, context.facets);
   context.linked = plan.linked.get();
   constexpr std::int64_t kMostLinked = 100'000;
   if (plan.linked &&
@@ -126,7 +127,6 @@ Plan read_plan(Keys& keys, TorqueContext context) {
                                 "angular_velocity_body_rad_s = [0.0, 0.0, 0.01]");
   }
   context.orbit = &plan.orbit;
-  context.facets = read_facets(keys);
   plan.target = read_target(keys.optional("pointing"), context.has_orbit);
   plan.torques = read_torques(keys.optional("torque"), context);
   for (const TorquePlan& torque : plan.torques) {

@@ -193,10 +193,10 @@ constexpr Model kModels[] = {{Constant<double>::kName, read_constant},
 static_assert(std::size(kModels) == std::variant_size_v<Torque<double>>,
               "every model of adstar/torques/all.hpp has its keys here");
 
-/// Which of the linked bodies; the hub where the file does not say.
-std::size_t read_body_name(const Value& value, const LinkedPlan& linked) {
+/// Which of the linked bodies; none where the file does not say.
+std::optional<std::size_t> read_body_name(const Value& value, const LinkedPlan& linked) {
   if (!value) {
-    return 0;
+    return std::nullopt;
   }
   std::vector<std::string_view> names;
   for (const auto& body : linked.linked.bodies) {
@@ -205,7 +205,48 @@ std::size_t read_body_name(const Value& value, const LinkedPlan& linked) {
   return read_choice(value, names).value_or(0);
 }
 
-TorquePlan read_torque(const Value& value, const TorqueContext& context) {
+/// The same torque for another body's outside.
+TorquePlan on_outside_of(const TorquePlan& plan, const LinkedPlan& linked, std::size_t body) {
+  TorquePlan own = plan;
+  own.body = body;
+  own.make = [make = plan.make, outside = linked.outsides[body]](Draws& draws) {
+    Torque<double> torque = make(draws);
+    std::visit(
+        [&](auto& model) {
+          if constexpr (requires { model.facets; }) {
+            model.facets = outside;
+          }
+        },
+        torque);
+    return torque;
+  };
+  return own;
+}
+
+/// What pushes acts on the body that it names, or on every one that has an outside.
+std::vector<TorquePlan> read_push(Keys& keys, const Model& model, TorqueContext context) {
+  const std::vector<Facets<double>>& outsides = context.linked->outsides;
+  std::vector<std::size_t> bodies;
+  if (const auto body = read_body_name(keys.optional("body"), *context.linked)) {
+    bodies = {*body};
+  } else {
+    for (std::size_t i = 0; i < outsides.size(); ++i) {
+      if (outsides[i] != nullptr) {
+        bodies.push_back(i);
+      }
+    }
+  }
+  context.facets = bodies.empty() ? nullptr : outsides[bodies.front()];
+  const TorquePlan plan = model.read(keys, context);
+  std::vector<TorquePlan> plans;
+  for (const std::size_t body : bodies) {
+    plans.push_back(plan.make ? on_outside_of(plan, *context.linked, body) : plan);
+  }
+  return plans;
+}
+
+/// One, but of what acts on several linked bodies.
+std::vector<TorquePlan> read_torque(const Value& value, const TorqueContext& context) {
   std::vector<std::string_view> names;
   for (const Model& model : kModels) {
     names.push_back(model.name);
@@ -216,22 +257,20 @@ TorquePlan read_torque(const Value& value, const TorqueContext& context) {
   if (!model) {
     return {};
   }
-  TorquePlan plan = kModels[*model].read(keys, context);
   const std::string_view name = names[*model];
-  const bool on_all = name == GravityGradient<double>::kName;
-  const bool on_outside =
-      name == Aerodynamic<double>::kName || name == SolarPressure<double>::kName;
-  if (context.linked != nullptr && on_outside) {
-    keys.complaints().add(keys.place(), keys.path() + ".model", in_quotes(name),
-                          "a model that linked bodies take: air and sunlight push, and here only "
-                          "torques reach them",
-                          "removing it");
-  }
-  if (context.linked != nullptr && !on_all) {
-    plan.body = read_body_name(keys.optional("body"), *context.linked);
+  const bool pushes = name == Aerodynamic<double>::kName || name == SolarPressure<double>::kName;
+  std::vector<TorquePlan> plans;
+  if (context.linked != nullptr && pushes) {
+    plans = read_push(keys, kModels[*model], context);
+  } else {
+    plans = {kModels[*model].read(keys, context)};
+    if (context.linked != nullptr && name != GravityGradient<double>::kName) {
+      plans.front().body =
+          read_body_name(keys.optional("body"), *context.linked).value_or(0);  // the hub
+    }
   }
   keys.refuse_unknown();
-  return plan;
+  return plans;
 }
 
 void refuse_duplicate_actuators(const std::vector<TorquePlan>& plans, Complaints& complaints) {
@@ -271,7 +310,9 @@ std::vector<TorquePlan> read_torques(const Value& value, const TorqueContext& co
     return plans;
   }
   for (std::size_t i = 0; i < value.node().items.size(); ++i) {
-    plans.push_back(read_torque(value.item(i), context));
+    for (TorquePlan& plan : read_torque(value.item(i), context)) {
+      plans.push_back(std::move(plan));
+    }
   }
   refuse_duplicate_actuators(plans, value.complaints());
   return plans;

@@ -195,6 +195,76 @@ TEST(LinkedFleet, two_bodies_held_together_fly_an_orbit_as_one) {
   EXPECT_GT(norm(H - one.spacecraft[0].initial.H_I.value()), 0.1 * norm(H)) << "gravity turns it";
 }
 
+constexpr const char* kLowOrbit =
+    "[spacecraft.orbit]\nsemi_major_axis_m = 6.65e6\ninclination_rad = 0.9\n";
+constexpr const char* kTwoOutsides =
+    "mass_kg = 30\ninertia_body_kg_m2 = [9, 11, 16]\n"
+    "box = { size_m = [1.0, 0.5, 0.3], specular_reflectivity = 0.3 }\n"
+    "[[spacecraft.body]]\nname = \"tip\"\nmass_kg = 10\ninertia_body_kg_m2 = [0.3, 0.2, 0.1]\n"
+    "facet = [ { area_m2 = 2.0, normal_body = [0, 0, 1], centre_body_m = [0, 0, 0.05] },\n"
+    "          { area_m2 = 2.0, normal_body = [0, 0.6, -0.8], centre_body_m = [0, 0.2, 0] } ]\n";
+constexpr const char* kPushed =
+    "[[spacecraft.torque]]\nmodel = \"aerodynamic\"\n"
+    "[[spacecraft.torque]]\nmodel = \"solar_pressure\"\n";
+
+std::string pushed_head(const std::string& step) {
+  return "[simulation]\nstep = \"" + step +
+         "\"\nepoch_utc = 2026-03-20T00:00:00Z\n[[spacecraft]]\nname = \"s\"\n"
+         "angular_velocity_body_rad_s = [1e-2, 2e-2, -1e-2]\n";
+}
+
+/// Each is pushed by its own outside; held together they are a body whose plates all are.
+TEST(LinkedFleet, two_bodies_held_together_are_turned_by_air_and_sunlight_as_one) {
+  const scene::Scene two = scene::parse(
+      pushed_head("100ms") + kTwoOutsides +
+          "[[spacecraft.joint]]\nname = \"boom\"\nkind = \"fixed\"\nfrom = \"hub\"\nto = \"tip\"\n"
+          "point_from_body_m = [4, 0, 0]\npoint_to_body_m = [0, 0, 0]\n" +
+          kLowOrbit + kPushed,
+      "two.toml");
+  // The common centre of mass is 1 m from the hub's; Steiner as above.
+  const scene::Scene one = scene::parse(
+      pushed_head("100ms") +
+          "inertia_body_kg_m2 = [9.3, 131.2, 136.1]\n"
+          "box = { size_m = [1.0, 0.5, 0.3], centre_body_m = [-1, 0, 0],\n"
+          "        specular_reflectivity = 0.3 }\n"
+          "facet = [ { area_m2 = 2.0, normal_body = [0, 0, 1], centre_body_m = [3, 0, 0.05] },\n"
+          "          { area_m2 = 2.0, normal_body = [0, 0.6, -0.8], centre_body_m = [3, 0.2, 0] } "
+          "]\n" +
+          kLowOrbit + kPushed,
+      "one.toml");
+  Fleet linked(two.spacecraft, "coadjoint_rk4", StepLimits{});
+  Fleet single(one.spacecraft, "coadjoint_rk4", StepLimits{});
+  for (std::int64_t n = 0; n < 6000; ++n) {
+    ASSERT_EQ(linked.step(n * 100 * kMs, 100 * kMs), 0U);
+    single.step(n * 100 * kMs, 100 * kMs);
+  }
+  const Vec3<double> H = single.vehicles()[0].state.H_I.value();
+  const double turned = norm(H - one.spacecraft[0].initial.H_I.value());
+  EXPECT_GT(turned, 0.01 * norm(H)) << "air and sunlight turn it";
+  EXPECT_LT(norm(linked.vehicles()[0].state.H_I.value() - H), 1e-6 * turned);
+  const Quat<double> a = linked.vehicles()[0].state.q_IB, b = single.vehicles()[0].state.q_IB;
+  EXPECT_LT(norm(Vec3<double>{a.x - b.x, a.y - b.y, a.z - b.z}), 1e-8);
+}
+
+TEST(LinkedFleet, what_pushes_leaves_the_common_centre_of_mass_where_it_is) {
+  const scene::Scene scene = scene::parse(
+      pushed_head("500ms") + kTwoOutsides +
+          "[[spacecraft.joint]]\nname = \"hinge\"\nkind = \"revolute\"\nfrom = \"hub\"\n"
+          "to = \"tip\"\npoint_from_body_m = [4, 0, 0]\npoint_to_body_m = [-0.5, 0, 0]\n"
+          "axis_body = [0, 1, 0]\n" +
+          kLowOrbit + kPushed,
+      "hinge.toml");
+  Fleet fleet(scene.spacecraft, "coadjoint_rk4", StepLimits{});
+  for (std::int64_t n = 0; n < 2000; ++n) {
+    fleet.step(n * 500 * kMs, 500 * kMs);
+  }
+  const auto& flight = *fleet.vehicles()[0].linked;
+  EXPECT_LT(norm(multibody::centre_of_mass(flight.assembly, flight.state)), 1e-12);
+  EXPECT_LT(norm(multibody::total_momentum(flight.assembly, flight.state).p_I.value()), 1e-14);
+  EXPECT_LT(momentum_residual_relative(fleet.vehicles()[0]), 1e-13);
+  EXPECT_GT(std::fabs(flight.state.coordinates[0][0]), 1e-3) << "the wind bends it";
+}
+
 /// A parallelogram of four bars that folds flat: there its loads are not unique, and that is said.
 TEST(LinkedFleet, says_when_a_loop_goes_through_a_dead_point) {
   const auto bar = [](const std::string& name, double length) {

@@ -30,8 +30,14 @@ const std::string kTorque = "[[spacecraft.torque]]", kBody = "[[spacecraft.body]
 /// `line` in a table that needs no other key, as far as its own keys go.
 std::string in_table(const KeyTable& table, const std::string& line) {
   const bool in_spacecraft = table.name.find("[spacecraft.") != std::string::npos;
+  std::string outer = in_spacecraft ? "[[spacecraft]]\n" : "";
+  for (const char* const block : {"body", "chain"}) {
+    if (table.name.find("[spacecraft." + std::string(block) + '.') != std::string::npos) {
+      outer += "[[spacecraft." + std::string(block) + "]]\n";
+    }
+  }
   const bool jointed = table.name == kJoint || table.name == kChain;
-  return (in_spacecraft ? "[[spacecraft]]\n" : "") + table.name + '\n' + table.choice + '\n' +
+  return outer + table.name + '\n' + table.choice + '\n' +
          (jointed && line.find("kind") != 0 ? "kind = \"revolute\"\n" : "") + line + '\n';
 }
 

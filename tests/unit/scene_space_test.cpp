@@ -46,6 +46,38 @@ TEST(SceneSpace, names_every_model_of_it_together) {
   EXPECT_EQ(craft.actuators[1].least_on_ns, 20'000'000);
 }
 
+/// Three bodies, of which the hub and the last have an outside.
+std::string linked_scene(const std::string& torques) {
+  const std::string body = "mass_kg = 5\ninertia_body_kg_m2 = [0.5, 0.2, 0.6]\n";
+  const std::string joint =
+      "kind = \"fixed\"\npoint_from_body_m = [1, 0, 0]\npoint_to_body_m = [0, 0, 0]\n";
+  return scene_of("mass_kg = 100\n" + kOrbit + kBox + "[[spacecraft.body]]\nname = \"bare\"\n" +
+                  body + "[[spacecraft.joint]]\nname = \"a\"\nfrom = \"hub\"\nto = \"bare\"\n" +
+                  joint + "[[spacecraft.chain]]\nname = \"link{}\"\ncount = 1\nfrom = \"bare\"\n" +
+                  body + joint + "facet = [ { area_m2 = 3, normal_body = [0, 0, 1], " +
+                  "centre_body_m = [0, 0, 0] } ]\n" + torques);
+}
+
+TEST(SceneSpace, what_pushes_goes_to_the_linked_body_that_it_names_or_to_each_that_has_an_outside) {
+  const Spacecraft all = read(linked_scene(model("aerodynamic", "density_factor = 2.0\n")));
+  ASSERT_EQ(all.torques.size(), 2U);
+  EXPECT_EQ(all.first_torque, (std::vector<std::size_t>{0, 1, 1, 2}));
+  EXPECT_EQ(std::get<Aerodynamic<double>>(all.torques[0]).facets->size(), 6U);
+  const auto& link = std::get<Aerodynamic<double>>(all.torques[1]);
+  ASSERT_EQ(link.facets->size(), 1U);
+  EXPECT_EQ(link.facets->at(0).area_m2, 3);
+  EXPECT_EQ(link.density_factor, 2);
+  const Spacecraft one = read(linked_scene(model("solar_pressure", "body = \"link0\"\n")));
+  ASSERT_EQ(one.torques.size(), 1U);
+  EXPECT_EQ(one.first_torque, (std::vector<std::size_t>{0, 0, 0, 1}));
+  EXPECT_EQ(std::get<SolarPressure<double>>(one.torques[0]).facets->size(), 1U);
+  EXPECT_NE(refusal(linked_scene(model("aerodynamic", "body = \"bare\"\n")))
+                .find("an outside of the body that it acts on"),
+            std::string::npos);
+  const std::string twice = refusal(linked_scene(model("aerodynamic", "density_factor = 0\n")));
+  EXPECT_EQ(twice.find("density_factor"), twice.rfind("density_factor")) << "said once: " << twice;
+}
+
 TEST(SceneSpace, a_thruster_with_a_schedule_is_nobodys_to_command) {
   const Spacecraft craft = read(in_spacecraft(model(
       "thruster", "torque_body_n_m = [0.1, 0, 0]\non = [[\"0s\", \"1s\"], [\"3s\", \"4s\"]]\n")));

@@ -7,6 +7,9 @@
 //   F = m μ/r³ (3 (x·u) u - x),   u to the spacecraft, r its distance
 // (Hill 1878; terms of x²/r² left out), the tide, which stretches a tether. With the gravity gradient on each body
 // (torques/gravity_gradient.hpp) that is the gravity gradient of the whole.
+//
+// Air and sunlight push as well as turn. What they do to the whole's way is the orbit's, which is given: a body feels
+// its own push less its mass's share of all, F_i - m_i/M Σ F, and the common centre of mass stays in the origin.
 
 #include <algorithm>
 #include <array>
@@ -15,6 +18,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "adstar/integrators/all.hpp"
@@ -88,6 +92,31 @@ std::span<const Torque<T>> torques_of(const LinkedFlight<T>& flight, std::span<c
   return all.subspan(first, flight.first_torque[body + 1] - first);
 }
 
+/// Of those among the models of a body that push [N].
+template <class T>
+Vec3<T> push_on(std::span<const Torque<T>> own, const T& t_s, const Quat<T>& q_IB) {
+  Vec3<T> push{};
+  for (const Torque<T>& torque : own) {
+    std::visit(
+        [&](const auto& model) {
+          if constexpr (requires { model.force_I(t_s, q_IB); }) {
+            push = push + model.force_I(t_s, q_IB);
+          }
+        },
+        torque);
+  }
+  return push;
+}
+
+template <class T>
+bool pushes(const Torque<T>& torque) {
+  return std::visit(
+      [](const auto& model) {
+        return requires { model.force_I(T{}, Quat<T>{}); };
+      },
+      torque);
+}
+
 /// What acts on a body at a stage, the segment having begun at t_s.
 template <class T>
 BodyLoad<T> load_of(const LinkedFlight<T>& flight, std::span<const Torque<T>> all, const T& t_s,
@@ -102,14 +131,14 @@ BodyLoad<T> load_of(const LinkedFlight<T>& flight, std::span<const Torque<T>> al
     const Stage<T> at{stage.time_s, rotate_inverse(motion.q_IB, motion.omega_I), motion.q_IB, none};
     adstar::detail::add_stage_torques(tau, segment, own, now_s, at);
   }
-  BodyLoad<T> load{tau.body, tau.inertial, {}, {}};
+  BodyLoad<T> load{tau.body, tau.inertial, {}, push_on(own, now_s, motion.q_IB)};
   if (flight.tide) {
     const OrbitPosition<T> place = position_at(*flight.tide, now_s);
     const T& r = place.distance_m;
     const T strength =
         flight.assembly.bodies()[stage.body].mass * (gravity_of(*flight.tide) / r / r / r);
     const Vec3<T>& u = place.direction_I;
-    load.force_I = strength * (T(3) * dot(motion.x_I, u) * u - motion.x_I);
+    load.force_I = load.force_I + strength * (T(3) * dot(motion.x_I, u) * u - motion.x_I);
   }
   return load;
 }
@@ -120,6 +149,8 @@ struct FlightLoad {
   const LinkedFlight<T>& flight;
   std::span<const Torque<T>> torques;
   T t_s{};
+
+  bool keeps_centre() const { return std::any_of(torques.begin(), torques.end(), pushes<T>); }
 
   BodyLoad<T> operator()(const LoadStage<T>& stage) const {
     return load_of(flight, torques, t_s, stage);

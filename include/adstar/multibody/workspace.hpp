@@ -28,7 +28,8 @@ struct LoadStage {
   const BodyMotion<T>& motion;
 };
 
-/// No loads but gravity. Any callable BodyLoad<T>(const LoadStage<T>&) may stand in its place.
+/// No loads but gravity. Any callable BodyLoad<T>(const LoadStage<T>&) may stand in its place. Where it says
+/// keeps_centre(), the bodies fall together under their common push: each feels its own less its mass's share of all.
 struct NoLoad {};
 
 /// Of one joint at one stage: the force on b, its moments as the stages of a and of b gather them, and about the
@@ -40,6 +41,12 @@ struct JointSlope {
 template <class T>
 struct LoadSlope {
   Vec3<T> force, moment, moment_I;
+};
+
+/// A BodyLoad in I.
+template <class T>
+struct GivenLoad {
+  Vec3<T> moment, push;
 };
 
 inline constexpr std::size_t kMostStages = 12;
@@ -54,6 +61,7 @@ struct Workspace {
         start_spins(motions.size()),
         offsets(motions.size()),
         masses(motions.size()),
+        given(motions.size()),
         accelerations(motions.size()),
         joints(assembly.joints().size()),
         coordinates(joints.size()),
@@ -78,6 +86,7 @@ struct Workspace {
   std::vector<Vec3<T>> start_velocities, start_spins;  ///< at the beginning of the step
   std::vector<Vec3<T>> offsets;  ///< y of advance.hpp, zero in the direct product
   std::vector<MassBlock<T>> masses;
+  std::vector<GivenLoad<T>> given;        ///< of the stage
   std::vector<Spatial<T>> accelerations;  ///< forces before solve(), (omega_I', v_I') after
   std::vector<JointMotion<T>> joints;
   std::vector<std::array<T, 3>> coordinates;
@@ -172,6 +181,26 @@ std::array<T, 3> coordinates_near(const Joint<T>& joint, const JointMotion<T>& m
   return counted_on(joint.kind, joint_coordinates(joint.kind, m), last);
 }
 
+/// Asks for the loads, into work.given; what they have in common where they keep the centre, else zero.
+template <class T, class Load>
+Vec3<T> common_acceleration(const Assembly<T>& assembly, Workspace<T>& work, const Load& load,
+                            const T& time_s) {
+  Vec3<T> all{};
+  if constexpr (!std::is_same_v<Load, NoLoad>) {
+    for (std::size_t i = 0; i < work.motions.size(); ++i) {
+      const BodyMotion<T>& motion = work.motions[i];
+      const BodyLoad<T> given = load(LoadStage<T>{i, time_s, motion});
+      work.given[i] = {rotate(motion.q_IB, given.torque_B) + given.torque_I,
+                       rotate(motion.q_IB, given.force_B) + given.force_I};
+      all = all + work.given[i].push;
+    }
+    if constexpr (requires { load.keeps_centre(); }) {
+      return load.keeps_centre() ? (T(1) / assembly.mass()) * all : Vec3<T>{};
+    }
+  }
+  return {};
+}
+
 /// Everything at work.motions: joints, loads, accelerations. `last`: coordinates nearby; `motors`: by joint, or
 /// null; `slopes`: of the stage, or null; `power` gets the work of motors, dampers and loads.
 template <class T, class Load>
@@ -181,13 +210,13 @@ int solve_accelerations(const Assembly<T>& assembly, Workspace<T>& work,
   power = T(0);
   evaluate_joints(assembly, work);
   const int lost = factor(assembly, work);
+  const Vec3<T> common = common_acceleration(assembly, work, load, time_s);
   for (std::size_t i = 0; i < work.motions.size(); ++i) {
     const BodyMotion<T>& motion = work.motions[i];
     Vec3<T> force = assembly.bodies()[i].mass * assembly.options().gravity_I, moment{};
     if constexpr (!std::is_same_v<Load, NoLoad>) {
-      const BodyLoad<T> given = load(LoadStage<T>{i, time_s, motion});
-      moment = rotate(motion.q_IB, given.torque_B) + given.torque_I;
-      const Vec3<T> push = rotate(motion.q_IB, given.force_B) + given.force_I;
+      moment = work.given[i].moment;
+      const Vec3<T> push = work.given[i].push - assembly.bodies()[i].mass * common;
       force = force + push;
       power = power + (dot(moment, motion.omega_I) + dot(push, motion.v_I));
     }

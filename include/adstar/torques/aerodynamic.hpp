@@ -26,15 +26,8 @@ struct Aerodynamic {
 
   /// `q_IB`: of any length but zero.
   Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const {
-    const OrbitMotion<T> motion = motion_at(orbit, t_s);
-    const Vec3<T> v_I = velocity_in_air(motion, rotation);
-    const T speed = norm(v_I);
-    if (!(speed > T(0))) {
-      return {};
-    }
-    const T density =
-        density_factor * air_density(altitude_of(position_of(motion), rotation.pole_I()));
-    const Vec3<T> u_B = rotate_inverse(normalised(q_IB), (T(1) / speed) * v_I);
+    const Wind wind = wind_at(t_s);
+    const Vec3<T> u_B = rotate_inverse(normalised(q_IB), wind.u_I);
     Vec3<T> moment{};
     for (const Facet<T>& facet : *facets) {
       const T facing = dot(facet.normal_B, u_B);
@@ -43,22 +36,66 @@ struct Aerodynamic {
       }
     }
     // Σ c_i × F_i with one direction of all forces: (Σ C_i A_i cos_i c_i) × (-q u).
-    return (T(0.5) * density * speed * speed) * cross(u_B, moment);
+    return wind.pressure_N_m2 * cross(u_B, moment);
   }
 
-  /// At the least distance, above the equator and against the Earth's turn; a percent for where the layers meet.
+  /// Σ F_i [N].
+  Vec3<T> force_I(const T& t_s, const Quat<T>& q_IB) const {
+    const Wind wind = wind_at(t_s);
+    const Vec3<T> u_B = rotate_inverse(normalised(q_IB), wind.u_I);
+    T area{};
+    for (const Facet<T>& facet : *facets) {
+      const T facing = dot(facet.normal_B, u_B);
+      if (facing > T(0)) {
+        area = area + facet.drag_coefficient * facet.area_m2 * facing;
+      }
+    }
+    return (-wind.pressure_N_m2 * area) * wind.u_I;
+  }
+
   T bound() const {
-    using std::abs;
-    const T distance = least_distance(orbit);
-    const T density = T(1.01) * density_factor * air_density(T(distance - T(kEarthRadius_m)));
-    const T speed = greatest_speed(orbit) + abs(rotation.rate_rad_s) * distance;
     T sum{};
     for (const Facet<T>& facet : *facets) {
       sum = sum + facet.drag_coefficient * facet.area_m2 * norm(facet.centre_B_m);
     }
-    return T(0.5) * density * speed * speed * sum;
+    return pressure_bound() * sum;
+  }
+  /// Of the force [N].
+  T force_bound() const {
+    T sum{};
+    for (const Facet<T>& facet : *facets) {
+      sum = sum + facet.drag_coefficient * facet.area_m2;
+    }
+    return pressure_bound() * sum;
   }
   std::int64_t next_edge_after(std::int64_t) const { return kNever; }
+
+ private:
+  /// At the least distance, above the equator and against the Earth's turn; a percent for where the layers meet.
+  T pressure_bound() const {
+    using std::abs;
+    const T distance = least_distance(orbit);
+    const T density = T(1.01) * density_factor * air_density(T(distance - T(kEarthRadius_m)));
+    const T speed = greatest_speed(orbit) + abs(rotation.rate_rad_s) * distance;
+    return T(0.5) * density * speed * speed;
+  }
+
+  struct Wind {
+    Vec3<T> u_I;  ///< unit; zero where the air stands still
+    T pressure_N_m2{};
+  };
+
+  Wind wind_at(const T& t_s) const {
+    const OrbitMotion<T> motion = motion_at(orbit, t_s);
+    const Vec3<T> v_I = velocity_in_air(motion, rotation);
+    const T speed = norm(v_I);
+    if (!(speed > T(0))) {
+      return {};
+    }
+    const T density =
+        density_factor * air_density(altitude_of(position_of(motion), rotation.pole_I()));
+    return {(T(1) / speed) * v_I, T(0.5) * density * speed * speed};
+  }
 };
 
 }  // namespace adstar

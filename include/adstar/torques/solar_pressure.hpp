@@ -30,6 +30,72 @@ struct SolarPressure {
 
   /// `q_IB`: of any length but zero.
   Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const {
+    const Light light = light_on(t_s);
+    if (!(light.pressure_N_m2 > T(0))) {
+      return {};
+    }
+    const Vec3<T> u_B = rotate_inverse(normalised(q_IB), light.u_I);
+    Vec3<T> tau{};
+    for (const Facet<T>& facet : *facets) {
+      const T facing = dot(facet.normal_B, u_B);
+      if (facing > T(0)) {
+        tau =
+            tau + (facet.area_m2 * facing) * cross(share_of(facet, facing, u_B), facet.centre_B_m);
+      }
+    }
+    return light.pressure_N_m2 * tau;
+  }
+
+  /// Σ F_i [N].
+  Vec3<T> force_I(const T& t_s, const Quat<T>& q_IB) const {
+    const Light light = light_on(t_s);
+    if (!(light.pressure_N_m2 > T(0))) {
+      return {};
+    }
+    const Quat<T> unit = normalised(q_IB);
+    const Vec3<T> u_B = rotate_inverse(unit, light.u_I);
+    Vec3<T> share{};
+    for (const Facet<T>& facet : *facets) {
+      const T facing = dot(facet.normal_B, u_B);
+      if (facing > T(0)) {
+        share = share + (facet.area_m2 * facing) * share_of(facet, facing, u_B);
+      }
+    }
+    return -light.pressure_N_m2 * rotate(unit, share);
+  }
+
+  T bound() const {
+    T sum{};
+    for (const Facet<T>& facet : *facets) {
+      sum = sum + most_of(facet) * norm(facet.centre_B_m);
+    }
+    return pressure_bound() * sum;
+  }
+  /// Of the force [N].
+  T force_bound() const {
+    T sum{};
+    for (const Facet<T>& facet : *facets) {
+      sum = sum + most_of(facet);
+    }
+    return pressure_bound() * sum;
+  }
+  std::int64_t next_edge_after(std::int64_t) const { return kNever; }
+
+ private:
+  T pressure_bound() const {
+    const T distance = seasonal ? T(kLeastSunDistance_au) : T(1);
+    return pressure_N_m2 / (distance * distance);
+  }
+  static T most_of(const Facet<T>& facet) {
+    return facet.area_m2 * (T(1) + facet.specular + T(2) * facet.diffuse / T(3));
+  }
+
+  struct Light {
+    Vec3<T> u_I;  ///< unit, to the Sun
+    T pressure_N_m2{};
+  };
+
+  Light light_on(const T& t_s) const {
     const SunPosition<T> position = sun.at(t_s);
     const T light =
         shadow == Shadow::none ? T(1) : light_at(shadow, position_at(orbit, t_s), position);
@@ -37,30 +103,15 @@ struct SolarPressure {
       return {};
     }
     const T distance = seasonal ? position.distance_au : T(1);
-    const Vec3<T> u_B = rotate_inverse(normalised(q_IB), position.direction_I);
-    Vec3<T> tau{};
-    for (const Facet<T>& facet : *facets) {
-      const T facing = dot(facet.normal_B, u_B);
-      if (facing > T(0)) {
-        const T along = T(1) - facet.specular;
-        const T inwards = T(2) * (facet.specular * facing + facet.diffuse / T(3));
-        const Vec3<T> force = along * u_B + inwards * facet.normal_B;
-        tau = tau + (facet.area_m2 * facing) * cross(force, facet.centre_B_m);
-      }
-    }
-    return (light * pressure_N_m2 / (distance * distance)) * tau;
+    return {position.direction_I, light * pressure_N_m2 / (distance * distance)};
   }
 
-  T bound() const {
-    const T distance = seasonal ? T(kLeastSunDistance_au) : T(1);
-    T sum{};
-    for (const Facet<T>& facet : *facets) {
-      const T most = T(1) + facet.specular + T(2) * facet.diffuse / T(3);
-      sum = sum + facet.area_m2 * most * norm(facet.centre_B_m);
-    }
-    return pressure_N_m2 / (distance * distance) * sum;
+  /// (1 - s) u + 2 (s cos + k/3) n.
+  static Vec3<T> share_of(const Facet<T>& facet, const T& facing, const Vec3<T>& u_B) {
+    const T along = T(1) - facet.specular;
+    const T inwards = T(2) * (facet.specular * facing + facet.diffuse / T(3));
+    return along * u_B + inwards * facet.normal_B;
   }
-  std::int64_t next_edge_after(std::int64_t) const { return kNever; }
 };
 
 }  // namespace adstar
