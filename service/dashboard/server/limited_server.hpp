@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <httplib.h>
+#include <sys/socket.h>
 
 namespace adstar::dashboard {
 
@@ -21,6 +22,10 @@ class LimitedServer final : public httplib::Server {
 
   /// Once `ending` is true nothing more is read, and nothing waits for a client.
   LimitedServer(const std::atomic<bool>& ending, std::size_t threads);
+
+  /// Once it is bound: as many as the system allows may connect at once. Of the library's queue of 5 a browser whose
+  /// packet is dropped hears nothing for a second, then for two more.
+  void lengthen_queue() { ::listen(svr_sock_, SOMAXCONN); }
 
  private:
   bool process_and_close_socket(socket_t socket) override;

@@ -120,6 +120,7 @@ Site::Site(const Bus& bus, PulseDesk& desk, Options options)
                                    options_.port, errno == 0 ? "refused" : std::strerror(errno)));
   }
   options_.port = bound;
+  server_->lengthen_queue();
   thread_ = std::thread([this] {
     server_->listen_after_bind();
     ended_ = true;
