@@ -333,7 +333,7 @@ std::optional<StepRefusal> refusal_of(const adstar_StepReply& sample) noexcept {
 }
 
 std::optional<ControlRefusal> refusal_of(const adstar_RunControlStatus& sample) noexcept {
-  return known(sample.refusal, ControlRefusal::not_recorded);
+  return known(sample.refusal, ControlRefusal::no_target);
 }
 
 }  // namespace adstar::dds
