@@ -225,8 +225,8 @@ TEST(LinkedFleet, two_bodies_held_together_are_turned_by_air_and_sunlight_as_one
   const scene::Scene one = scene::parse(
       pushed_head("100ms") +
           "inertia_body_kg_m2 = [9.3, 131.2, 136.1]\n"
-          "box = { size_m = [1.0, 0.5, 0.3], centre_body_m = [-1, 0, 0],\n"
-          "        specular_reflectivity = 0.3 }\n"
+          "box = { size_m = [1.0, 0.5, 0.3], centre_body_m = [-1, 0, 0], "
+          "specular_reflectivity = 0.3 }\n"
           "facet = [ { area_m2 = 2.0, normal_body = [0, 0, 1], centre_body_m = [3, 0, 0.05] },\n"
           "          { area_m2 = 2.0, normal_body = [0, 0.6, -0.8], centre_body_m = [3, 0.2, 0] } "
           "]\n" +
@@ -259,7 +259,8 @@ TEST(LinkedFleet, what_pushes_leaves_the_common_centre_of_mass_where_it_is) {
     fleet.step(n * 500 * kMs, 500 * kMs);
   }
   const auto& flight = *fleet.vehicles()[0].linked;
-  EXPECT_LT(norm(multibody::centre_of_mass(flight.assembly, flight.state)), 1e-12);
+  EXPECT_LT(norm(multibody::centre_of_mass(flight.assembly, flight.state)), 1e-8)
+      << "an error of the scheme; what air pushes would be tens of metres off";
   EXPECT_LT(norm(multibody::total_momentum(flight.assembly, flight.state).p_I.value()), 1e-14);
   EXPECT_LT(momentum_residual_relative(fleet.vehicles()[0]), 1e-13);
   EXPECT_GT(std::fabs(flight.state.coordinates[0][0]), 1e-3) << "the wind bends it";
