@@ -30,6 +30,16 @@ bool can_turn(const RigidBody<double>& body, const Vec3<double>& Pi_B) noexcept 
   return std::isfinite(angular_speed_bound_squared(body, Pi_B, 0.0));
 }
 
+/// No moment of inertia of the whole is larger [kg m²].
+double moment_bound(const multibody::LinkedFlight<double>& flight) noexcept {
+  double sum = 0;
+  for (std::size_t i = 0; i < flight.state.bodies.size(); ++i) {
+    const multibody::Body<double>& body = flight.assembly.bodies()[i];
+    sum += body.mass * squared_norm(flight.state.bodies[i].x_I.value()) + body.rigid.moments()[2];
+  }
+  return sum;
+}
+
 template <class Scheme>
 class SchemeStepper final : public Stepper {
  public:
@@ -230,9 +240,16 @@ void Fleet::set_state(std::size_t vehicle, const Quat<double>& q_IB,
 
 bool Fleet::set_motion(std::size_t vehicle, const Quat<double>& q_IB,
                        const Vec3<double>& omega_B) noexcept {
-  const Vehicle& moved = vehicles_[vehicle];
+  Vehicle& moved = vehicles_[vehicle];
   if (moved.linked != nullptr) {
-    return false;
+    if (!can_turn(moved.body, moved.body.momentum(omega_B)) ||
+        !std::isfinite(moment_bound(*moved.linked) * squared_norm(omega_B))) {
+      return false;
+    }
+    turn_to(moved.linked->assembly, moved.linked->state, normalised(q_IB), omega_B);
+    mirror(moved);
+    open_accounts(moved);
+    return true;
   }
   Wheels* const wheels = moved.wheels.get();
   const Vec3<double> rates = wheels == nullptr ? omega_B : angular_velocity_of(moved);

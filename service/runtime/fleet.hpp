@@ -95,8 +95,9 @@ class Fleet {
   /// begin anew. Between steps, like the two below.
   void set_state(std::size_t vehicle, const Quat<double>& q_IB, const Vec3<double>& H_I) noexcept;
 
-  /// The same of a vehicle with or without wheels, by its rate: wheels keep their speeds. False, and
-  /// nothing is changed, when that is a motion beyond the range of double.
+  /// The same of any vehicle, by its rate: wheels keep their speeds. Of linked bodies the rate is the hub's: the whole
+  /// turns, and its joints keep their coordinates and rates. False, and nothing is changed, when that is a motion
+  /// beyond the range of double.
   bool set_motion(std::size_t vehicle, const Quat<double>& q_IB,
                   const Vec3<double>& omega_B) noexcept;
 

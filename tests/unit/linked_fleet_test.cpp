@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "adstar/orbit/orbital_frame.hpp"
 #include "service/report/numbers.hpp"
 #include "service/report/scene_report.hpp"
 #include "service/runtime/fleet_snapshot.hpp"
@@ -310,9 +311,51 @@ TEST(LinkedFleet, is_reported_with_the_rate_of_its_hub_and_the_turn_of_its_faste
       << text;
 }
 
-TEST(LinkedFleet, another_state_or_body_is_refused) {
+/// As if the scene had said so: hinge wound, panel swinging, all of it.
+TEST(LinkedFleet, is_put_into_the_motion_that_a_scene_would_give_its_hub) {
+  for (const std::string formulation : {"se3", "direct_product"}) {
+    const auto flies = [&](const std::string& attitude, const std::string& rate) {
+      std::string text = kLinkedScene;
+      const std::string old = "angular_velocity_body_rad_s = [0.1, -0.05, 0.2]\n";
+      text.replace(text.find(old), old.size(),
+                   "formulation = \"" + formulation + "\"\nattitude_body_to_inertial = " +
+                       attitude + "\nangular_velocity_body_rad_s = " + rate + "\n");
+      return Fleet(scene::parse(text, "scene.toml").spacecraft, "coadjoint_rk4", StepLimits{});
+    };
+    Fleet put = flies("{ w = 1.0, x = 0.0, y = 0.0, z = 0.0 }", "[0.1, -0.05, 0.2]");
+    ASSERT_TRUE(put.set_motion(0, {0.5, -1, 0.2, 0.8}, {-0.3, 0.1, 0.02}));
+    Fleet asked = flies("{ w = 0.5, x = -1.0, y = 0.2, z = 0.8 }", "[-0.3, 0.1, 0.02]");
+    const auto expect_alike = [&](double within) {
+      const auto &a = *put.vehicles()[0].linked, &b = *asked.vehicles()[0].linked;
+      for (std::size_t i = 0; i < a.state.bodies.size(); ++i) {
+        const auto x = multibody::motion_of(a.assembly, a.state, i);
+        const auto y = multibody::motion_of(b.assembly, b.state, i);
+        EXPECT_LT(norm(x.x_I - y.x_I), within) << i;
+        EXPECT_LT(norm(x.v_I - y.v_I), within) << i;
+        EXPECT_LT(norm(x.omega_I - y.omega_I), within) << i;
+        EXPECT_LT(norm(rotation_vector(x.q_IB, y.q_IB)), within) << i;
+      }
+    };
+    expect_alike(1e-14);
+    const Vehicle& vehicle = put.vehicles()[0];
+    EXPECT_EQ(vehicle.state.q_IB, normalised(Quat<double>{0.5, -1, 0.2, 0.8}));
+    EXPECT_EQ(momentum_residual_relative(vehicle), 0.0);
+    EXPECT_EQ(sample(vehicle).energy_residual_j, 0.0);
+    for (std::int64_t n = 0; n < 300; ++n) {
+      EXPECT_EQ(put.step(n * 10 * kMs, 10 * kMs), 0U);
+      asked.step(n * 10 * kMs, 10 * kMs);
+    }
+    expect_alike(1e-12);
+    EXPECT_LT(momentum_residual_relative(vehicle), 1e-13);
+  }
+}
+
+TEST(LinkedFleet, a_motion_beyond_the_range_of_double_or_another_body_is_refused) {
   Fleet fleet(craft(), "coadjoint_rk4", StepLimits{});
-  EXPECT_FALSE(fleet.set_motion(0, {}, {0, 0, 1}));
+  const auto before = fleet.vehicles()[0].linked->state;
+  EXPECT_FALSE(fleet.set_motion(0, {}, {0, 0, 1e200}));
+  EXPECT_FALSE(fleet.set_motion(0, {}, {0, 0, 2.8e153}));
+  EXPECT_EQ(fleet.vehicles()[0].linked->state, before);
   EXPECT_FALSE(fleet.can_have_body(0, fleet.vehicles()[0].body));
 }
 

@@ -101,23 +101,29 @@ void evaluate(const Assembly<T>& assembly, std::size_t joint,
            Assembly<T>::motion_of(motions, of.body_b), m);
 }
 
+/// Of a body that moves so.
+template <class T>
+BodyState<T> make_state(const Assembly<T>& assembly, std::size_t of, const BodyMotion<T>& motion) {
+  const Body<T>& body = assembly.bodies()[of];
+  BodyState<T> own;
+  own.q_IB = motion.q_IB;
+  own.x_I.add(motion.x_I);
+  const Vec3<T> p = body.mass * motion.v_I;
+  own.p_I.add(p);
+  own.H_I.add(
+      rotate(motion.q_IB, body.rigid.momentum(rotate_inverse(motion.q_IB, motion.omega_I))));
+  if (assembly.options().formulation == Formulation::se3) {
+    own.H_I.add(cross(motion.x_I, p));
+  }
+  return own;
+}
+
 /// The start that the assembly was made with.
 template <class T>
 AssemblyState<T> make_state(const Assembly<T>& assembly) {
   AssemblyState<T> state;
   for (std::size_t i = 0; i < assembly.bodies().size(); ++i) {
-    const BodyMotion<T>& start = assembly.starts()[i];
-    const Body<T>& body = assembly.bodies()[i];
-    BodyState<T> own;
-    own.q_IB = start.q_IB;
-    own.x_I.add(start.x_I);
-    const Vec3<T> p = body.mass * start.v_I;
-    own.p_I.add(p);
-    own.H_I.add(rotate(start.q_IB, body.rigid.momentum(rotate_inverse(start.q_IB, start.omega_I))));
-    if (assembly.options().formulation == Formulation::se3) {
-      own.H_I.add(cross(start.x_I, p));
-    }
-    state.bodies.push_back(own);
+    state.bodies.push_back(make_state(assembly, i, assembly.starts()[i]));
   }
   JointMotion<T> m;
   for (std::size_t j = 0; j < assembly.joints().size(); ++j) {
@@ -134,6 +140,27 @@ void count_from(const Assembly<T>& assembly, AssemblyState<T>& state,
   for (std::size_t j = 0; j < state.coordinates.size(); ++j) {
     state.coordinates[j] =
         counted_on(assembly.joints()[j].kind, state.coordinates[j], coordinates[j]);
+  }
+}
+
+/// Turns the whole about the origin until the first body has this attitude (unit) and rate [rad/s]; coordinates and rates of
+/// the joints stay, to round-off. Of a free assembly. Never allocates.
+template <class T>
+void turn_to(const Assembly<T>& assembly, AssemblyState<T>& state, const Quat<T>& q_IB,
+             const Vec3<T>& omega_B) {
+  const BodyMotion<T> first = motion_of(assembly, state, 0);
+  const Quat<T>& q = first.q_IB;
+  const Quat<T> turn = normalised(q_IB * Quat<T>{q.w, -q.x, -q.y, -q.z});
+  const Vec3<T> omega_I = rotate(q_IB, omega_B);
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    const BodyMotion<T> before = motion_of(assembly, state, i);
+    BodyMotion<T> after;
+    after.x_I = rotate(turn, before.x_I);
+    after.q_IB = i == 0 ? q_IB : normalised(turn * before.q_IB);
+    after.v_I =
+        rotate(turn, before.v_I - cross(first.omega_I, before.x_I)) + cross(omega_I, after.x_I);
+    after.omega_I = rotate(turn, before.omega_I - first.omega_I) + omega_I;
+    state.bodies[i] = make_state(assembly, i, after);
   }
 }
 
