@@ -336,7 +336,7 @@ TEST(LinkedFleet, is_put_into_the_motion_that_a_scene_would_give_its_hub) {
         EXPECT_LT(norm(rotation_vector(x.q_IB, y.q_IB)), within) << i;
       }
     };
-    expect_alike(1e-14);
+    expect_alike(1e-13);
     const Vehicle& vehicle = put.vehicles()[0];
     EXPECT_EQ(vehicle.state.q_IB, normalised(Quat<double>{0.5, -1, 0.2, 0.8}));
     EXPECT_EQ(momentum_residual_relative(vehicle), 0.0);
@@ -346,7 +346,7 @@ TEST(LinkedFleet, is_put_into_the_motion_that_a_scene_would_give_its_hub) {
       asked.step(n * 10 * kMs, 10 * kMs);
     }
     expect_alike(1e-12);
-    EXPECT_LT(momentum_residual_relative(vehicle), 1e-13);
+    EXPECT_LT(momentum_residual_relative(vehicle), formulation == "se3" ? 1e-13 : 1e-10);
   }
 }
 
