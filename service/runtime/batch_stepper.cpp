@@ -110,8 +110,10 @@ struct Queue {
 template <class Scheme>
 class BatchStepper final : public Stepper {
  public:
-  BatchStepper(std::span<const Vehicle> vehicles, const batch::Kernels& kernels)
-      : kernels_{kernels.free, kernels.body, kernels.ramps, kernels.varying} {
+  BatchStepper(std::span<const Vehicle> vehicles, const StepLimits& limits,
+               const batch::Kernels& kernels)
+      : limits_(limits_for<Scheme>(limits)),
+        kernels_{kernels.free, kernels.body, kernels.ramps, kernels.varying} {
     bodies_.reserve(vehicles.size());
     packed_.reserve(vehicles.size());
     for (const Vehicle& vehicle : vehicles) {
@@ -120,9 +122,9 @@ class BatchStepper final : public Stepper {
     }
   }
 
-  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
-                   const StepLimits& limits) noexcept override {
-    const Step step{vehicles, t_ns, h_ns, seconds<double>(t_ns), seconds<double>(h_ns), limits};
+  std::size_t step(Vehicles all, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
+    const std::span<Vehicle> vehicles(all);
+    const Step step{vehicles, t_ns, h_ns, seconds<double>(t_ns), seconds<double>(h_ns)};
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
       const auto member = static_cast<std::uint32_t>(i);
@@ -157,7 +159,6 @@ class BatchStepper final : public Stepper {
     std::span<Vehicle> vehicles;
     std::int64_t t_ns, h_ns;
     double t_s, h_s;
-    const StepLimits& limits;
   };
 
   Queue& queue_of(Kind kind) noexcept { return queues_[static_cast<std::size_t>(kind)]; }
@@ -181,7 +182,7 @@ class BatchStepper final : public Stepper {
 
   std::size_t step_alone(const Step& step, std::uint32_t member) noexcept {
     return step_vehicle<Scheme>(bodies_[member], step.vehicles[member], step.t_ns, step.h_ns,
-                                step.limits)
+                                limits_)
                ? 0
                : 1;
   }
@@ -193,9 +194,9 @@ class BatchStepper final : public Stepper {
                                  sizeof(Vehicle) / sizeof(double), packed_.data()};
     std::array<std::uint32_t, Queue::kRoom> left;
     const std::size_t count = kernels_[static_cast<std::size_t>(kind)](
-        fleet, {queue.members.data(), queue.torques.data(), queue.harmonics.data(),
-                queue.most_harmonics, queue.size, step.t_s, step.h_s,
-                limits_for<Scheme>(step.limits).substep_angle_rad, left.data()});
+        fleet,
+        {queue.members.data(), queue.torques.data(), queue.harmonics.data(), queue.most_harmonics,
+         queue.size, step.t_s, step.h_s, limits_.substep_angle_rad, left.data()});
     queue.size = queue.most_harmonics = 0;
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -204,6 +205,7 @@ class BatchStepper final : public Stepper {
     return unresolved;
   }
 
+  StepLimits limits_;
   const batch::Kernel kernels_[4];  ///< by Kind
   std::vector<BodyOf<Scheme, double>> bodies_;
   std::vector<batch::PackedBody> packed_;
@@ -213,14 +215,15 @@ class BatchStepper final : public Stepper {
 }  // namespace
 
 std::unique_ptr<Stepper> make_batch_stepper(std::span<const Vehicle> vehicles,
-                                            std::string_view scheme, batch::InstructionSet set) {
+                                            std::string_view scheme, const StepLimits& limits,
+                                            batch::InstructionSet set) {
   std::unique_ptr<Stepper> stepper;
   const batch::Kernels* const kernels = batch::find_kernels(scheme, set);
   if (kernels != nullptr) {
     with_scheme(scheme, [&](auto s) {
       using Scheme = decltype(s);
       if constexpr (requires { Scheme::kTakesLanes; }) {
-        stepper = std::make_unique<BatchStepper<Scheme>>(vehicles, *kernels);
+        stepper = std::make_unique<BatchStepper<Scheme>>(vehicles, limits, *kernels);
       }
     });
   }

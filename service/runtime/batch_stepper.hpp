@@ -18,6 +18,7 @@ namespace adstar::runtime {
 
 /// Null when there are no kernels for that scheme. `set` must run here. Throws std::bad_alloc.
 std::unique_ptr<Stepper> make_batch_stepper(std::span<const Vehicle> vehicles,
-                                            std::string_view scheme, batch::InstructionSet set);
+                                            std::string_view scheme, const StepLimits& limits,
+                                            batch::InstructionSet set);
 
 }  // namespace adstar::runtime

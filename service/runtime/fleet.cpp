@@ -43,23 +43,24 @@ double moment_bound(const multibody::LinkedFlight<double>& flight) noexcept {
 template <class Scheme>
 class SchemeStepper final : public Stepper {
  public:
-  explicit SchemeStepper(std::span<const Vehicle> vehicles) {
+  SchemeStepper(std::span<const Vehicle> vehicles, const StepLimits& limits)
+      : limits_(limits_for<Scheme>(limits)) {
     bodies_.reserve(vehicles.size());
     for (const Vehicle& vehicle : vehicles) {
       bodies_.emplace_back(vehicle.body);
     }
   }
 
-  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
-                   const StepLimits& limits) noexcept override {
-    const StepLimits own = limits_for<Scheme>(limits);
+  std::size_t step(Vehicles vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
     const double h_s = seconds<double>(h_ns);
     std::size_t unresolved = 0;
-    for (std::size_t i = 0; i < vehicles.size(); ++i) {
-      const bool resolved = vehicles[i].torques.empty()
-                                ? step_free_vehicle<Scheme>(bodies_[i], vehicles[i], h_s, own)
-                                : step_vehicle<Scheme>(bodies_[i], vehicles[i], t_ns, h_ns, limits);
+    const BodyOf<Scheme, double>* body = bodies_.data();
+    for (Vehicle& vehicle : vehicles) {
+      const bool resolved = vehicle.torques.empty()
+                                ? step_free_vehicle<Scheme>(*body, vehicle, h_s, limits_)
+                                : step_vehicle<Scheme>(*body, vehicle, t_ns, h_ns, limits_);
       unresolved += resolved ? 0 : 1;
+      ++body;
     }
     return unresolved;
   }
@@ -69,6 +70,7 @@ class SchemeStepper final : public Stepper {
   }
 
  private:
+  StepLimits limits_;
   std::vector<BodyOf<Scheme, double>> bodies_;
 };
 
@@ -92,13 +94,14 @@ std::optional<batch::InstructionSet> chosen(Lanewise lanewise, std::string_view 
 }
 
 std::unique_ptr<Stepper> make_plain_stepper(std::span<const Vehicle> vehicles,
-                                            std::string_view scheme, Lanewise lanewise) {
+                                            std::string_view scheme, const StepLimits& limits,
+                                            Lanewise lanewise) {
   if (const auto set = chosen(lanewise, scheme, vehicles.size())) {
-    return make_batch_stepper(vehicles, scheme, *set);
+    return make_batch_stepper(vehicles, scheme, limits, *set);
   }
   std::unique_ptr<Stepper> stepper;
   if (!with_scheme(scheme, [&](auto s) {
-        stepper = std::make_unique<SchemeStepper<decltype(s)>>(vehicles);
+        stepper = std::make_unique<SchemeStepper<decltype(s)>>(vehicles, limits);
       })) {
     throw std::invalid_argument("unknown scheme '" + std::string(scheme) + "'");
   }
@@ -116,7 +119,8 @@ Kind kind_of(const Vehicle& vehicle) noexcept {
 /// Neighbours of one kind by a stepper of their own: plain ones fill lanes as ever.
 class RunsStepper final : public Stepper {
  public:
-  RunsStepper(std::span<const Vehicle> vehicles, std::string_view scheme, Lanewise lanewise) {
+  RunsStepper(std::span<const Vehicle> vehicles, std::string_view scheme, const StepLimits& limits,
+              Lanewise lanewise) {
     for (std::size_t first = 0; first < vehicles.size();) {
       std::size_t end = first + 1;
       const Kind kind = kind_of(vehicles[first]);
@@ -125,18 +129,18 @@ class RunsStepper final : public Stepper {
       }
       const std::span<const Vehicle> run = vehicles.subspan(first, end - first);
       runs_.push_back({first, run.size(),
-                       kind == Kind::linked   ? make_linked_stepper(scheme)
-                       : kind == Kind::wheels ? make_wheel_stepper(scheme)
-                                              : make_plain_stepper(run, scheme, lanewise)});
+                       kind == Kind::linked   ? make_linked_stepper(scheme, limits)
+                       : kind == Kind::wheels ? make_wheel_stepper(scheme, limits)
+                                              : make_plain_stepper(run, scheme, limits, lanewise)});
       first = end;
     }
   }
 
-  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
-                   const StepLimits& limits) noexcept override {
+  std::size_t step(Vehicles vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
     std::size_t unresolved = 0;
     for (Run& run : runs_) {
-      unresolved += run.stepper->step(vehicles.subspan(run.first, run.count), t_ns, h_ns, limits);
+      Vehicle* const first = vehicles.data() + run.first;
+      unresolved += run.stepper->step({first, first + run.count}, t_ns, h_ns);
     }
     return unresolved;
   }
@@ -158,11 +162,11 @@ class RunsStepper final : public Stepper {
 };
 
 std::unique_ptr<Stepper> make_stepper(std::span<const Vehicle> vehicles, std::string_view scheme,
-                                      Lanewise lanewise) {
+                                      const StepLimits& limits, Lanewise lanewise) {
   const bool plain = std::none_of(vehicles.begin(), vehicles.end(),
                                   [](const Vehicle& v) { return kind_of(v) != Kind::plain; });
-  return plain ? make_plain_stepper(vehicles, scheme, lanewise)
-               : std::make_unique<RunsStepper>(vehicles, scheme, lanewise);
+  return plain ? make_plain_stepper(vehicles, scheme, limits, lanewise)
+               : std::make_unique<RunsStepper>(vehicles, scheme, limits, lanewise);
 }
 
 std::unique_ptr<Wheels> make_wheels(const scene::Spacecraft& craft) {
@@ -203,8 +207,7 @@ double energy_of(const Vehicle& vehicle) noexcept {
 }
 
 Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view scheme,
-             const StepLimits& limits, Lanewise lanewise, std::size_t threads)
-    : limits_(limits) {
+             const StepLimits& limits, Lanewise lanewise, std::size_t threads) {
   vehicles_.reserve(spacecraft.size());
   for (const scene::Spacecraft& craft : spacecraft) {
     Vehicle vehicle{craft.initial,
@@ -228,7 +231,7 @@ Fleet::Fleet(const std::vector<scene::Spacecraft>& spacecraft, std::string_view 
     vehicles_.push_back(std::move(vehicle));
   }
   stepper_ = make_threaded_stepper(vehicles_, threads, [&](std::span<const Vehicle> part) {
-    return make_stepper(part, scheme, lanewise);
+    return make_stepper(part, scheme, limits, lanewise);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -58,13 +59,15 @@ Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept;
 /// Of the body and the wheels [J].
 double energy_of(const Vehicle& vehicle) noexcept;
 
-/// Steps all vehicles with one scheme; keeps what that scheme prepares once for each body.
+/// Some of a fleet, one beside the other. By its ends: a span would be divided into a size and multiplied out again.
+using Vehicles = std::ranges::subrange<Vehicle*>;
+
+/// Steps all vehicles with one scheme within limits that do not change; keeps what that scheme prepares once for each body.
 class Stepper {
  public:
   virtual ~Stepper() = default;
   /// Over [t_ns, t_ns + h_ns]; returns how many could not be resolved.
-  virtual std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
-                           const StepLimits& limits) noexcept = 0;
+  virtual std::size_t step(Vehicles vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept = 0;
   /// Prepares one body anew. Between steps; never allocates.
   virtual void replace_body(std::size_t vehicle, const RigidBody<double>& body) noexcept = 0;
 };
@@ -83,7 +86,8 @@ class Fleet {
   /// Steps every vehicle over [t_ns, t_ns + h_ns]. Never throws, never allocates.
   /// Returns how many could not be resolved.
   std::size_t step(std::int64_t t_ns, std::int64_t h_ns) noexcept {
-    const std::size_t unresolved = stepper_->step(vehicles_, t_ns, h_ns, limits_);
+    const std::size_t unresolved =
+        stepper_->step({vehicles_.data(), vehicles_.data() + vehicles_.size()}, t_ns, h_ns);
     for (const Lagging& lagging : lagging_) {
       std::get<Magnetorquer<double>>(vehicles_[lagging.vehicle].torques[lagging.torque])
           .carry_to(t_ns + h_ns);
@@ -135,7 +139,6 @@ class Fleet {
   std::vector<Vehicle> vehicles_;
   std::vector<Start> start_;
   std::vector<Lagging> lagging_;  ///< magnetorquers whose past is carried on
-  StepLimits limits_;
   std::unique_ptr<Stepper> stepper_;
 };
 

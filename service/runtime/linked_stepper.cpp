@@ -21,17 +21,18 @@ std::uint32_t flags_of(const multibody::AssemblyReport<double>& report, bool edg
 template <class Tableau>
 class LinkedStepper final : public Stepper {
  public:
-  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
-                   const StepLimits& limits) noexcept override {
-    multibody::AssemblyLimits linked;
-    linked.substep_angle_rad = limits.substep_angle_rad;
-    linked.substeps = limits.substeps;
+  explicit LinkedStepper(const StepLimits& limits) : edges_(limits.edges) {
+    limits_.substep_angle_rad = limits.substep_angle_rad;
+    limits_.substeps = limits.substeps;
+  }
+
+  std::size_t step(Vehicles vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
     std::size_t unresolved = 0;
     for (Vehicle& vehicle : vehicles) {
       bool edges_left = false;
       const auto report = multibody::advance<Tableau>(
-          *vehicle.linked, std::span<const Torque<double>>(vehicle.torques), t_ns, h_ns, linked,
-          limits.edges, edges_left);
+          *vehicle.linked, std::span<const Torque<double>>(vehicle.torques), t_ns, h_ns, limits_,
+          edges_, edges_left);
       vehicle.flags = flags_of(report, edges_left);
       unresolved += vehicle.flags == 0 ? 0 : 1;
       mirror(vehicle);
@@ -41,6 +42,10 @@ class LinkedStepper final : public Stepper {
 
   /// The hub is the vehicle's own.
   void replace_body(std::size_t, const RigidBody<double>&) noexcept override {}
+
+ private:
+  multibody::AssemblyLimits limits_;
+  std::int64_t edges_;
 };
 
 }  // namespace
@@ -74,11 +79,11 @@ void mirror(Vehicle& vehicle) noexcept {
   vehicle.state.work = flight.state.work;
 }
 
-std::unique_ptr<Stepper> make_linked_stepper(std::string_view scheme) {
+std::unique_ptr<Stepper> make_linked_stepper(std::string_view scheme, const StepLimits& limits) {
   std::unique_ptr<Stepper> stepper;
   with_scheme(scheme, [&](auto s) {
     if constexpr (multibody::LinksBodies<decltype(s)>) {
-      stepper = std::make_unique<LinkedStepper<typename decltype(s)::Nodes>>();
+      stepper = std::make_unique<LinkedStepper<typename decltype(s)::Nodes>>(limits);
     }
   });
   if (stepper == nullptr) {

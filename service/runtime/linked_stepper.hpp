@@ -16,6 +16,6 @@ std::unique_ptr<multibody::LinkedFlight<double>> make_linked(const scene::Spacec
 void mirror(Vehicle& vehicle) noexcept;
 
 /// Throws std::invalid_argument for a scheme that does not step linked bodies.
-std::unique_ptr<Stepper> make_linked_stepper(std::string_view scheme);
+std::unique_ptr<Stepper> make_linked_stepper(std::string_view scheme, const StepLimits& limits);
 
 }  // namespace adstar::runtime

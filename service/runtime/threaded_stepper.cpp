@@ -36,9 +36,8 @@ class ThreadedStepper final : public Stepper {
   }
   ~ThreadedStepper() override { stop(); }
 
-  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
-                   const StepLimits& limits) noexcept override {
-    job_ = {vehicles, t_ns, h_ns, limits};
+  std::size_t step(Vehicles vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
+    job_ = {vehicles, t_ns, h_ns};
     gate_.arrive_and_wait();  // off they go
     run(parts_[0]);
     gate_.arrive_and_wait();  // all are back
@@ -60,14 +59,13 @@ class ThreadedStepper final : public Stepper {
 
  private:
   struct Job {
-    std::span<Vehicle> vehicles;
+    Vehicles vehicles;
     std::int64_t t_ns = 0, h_ns = 0;
-    StepLimits limits;
   };
 
   void run(Part& part) noexcept {
-    part.unresolved = part.stepper->step(job_.vehicles.subspan(part.first, part.count), job_.t_ns,
-                                         job_.h_ns, job_.limits);
+    Vehicle* const first = job_.vehicles.data() + part.first;
+    part.unresolved = part.stepper->step({first, first + part.count}, job_.t_ns, job_.h_ns);
   }
 
   void work(Part& part) noexcept {

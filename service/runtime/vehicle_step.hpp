@@ -32,7 +32,7 @@ bool step_vehicle(const BodyOf<Scheme, double>& body, Vehicle& vehicle, std::int
 /// The same of one that names no torque; what is alike for all such is worked out before: h, and limits_for<Scheme>().
 template <class Scheme>
 [[gnu::always_inline]] inline bool step_free_vehicle(const BodyOf<Scheme, double>& body,
-                                                     Vehicle& vehicle, double h_s,
+                                                     Vehicle& vehicle, const double& h_s,
                                                      const StepLimits& limits) noexcept {
   return note(vehicle,
               adstar::detail::advance_free<Scheme, double>(body, vehicle.state, h_s, limits));

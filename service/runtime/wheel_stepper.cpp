@@ -13,13 +13,14 @@ namespace {
 template <class Scheme>
 class WheelStepper final : public Stepper {
  public:
-  std::size_t step(std::span<Vehicle> vehicles, std::int64_t t_ns, std::int64_t h_ns,
-                   const StepLimits& limits) noexcept override {
+  explicit WheelStepper(const StepLimits& limits) : limits_(limits) {}
+
+  std::size_t step(Vehicles vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
     std::size_t unresolved = 0;
     for (Vehicle& vehicle : vehicles) {
       const StepReport report = advance<Scheme, double>(vehicle.wheels->hub, vehicle.state,
                                                         std::span(vehicle.wheels->spinning),
-                                                        vehicle.torques, t_ns, h_ns, limits);
+                                                        vehicle.torques, t_ns, h_ns, limits_);
       unresolved += note(vehicle, report) ? 0 : 1;
     }
     return unresolved;
@@ -27,15 +28,18 @@ class WheelStepper final : public Stepper {
 
   /// The hub is the vehicle's own.
   void replace_body(std::size_t, const RigidBody<double>&) noexcept override {}
+
+ private:
+  StepLimits limits_;
 };
 
 }  // namespace
 
-std::unique_ptr<Stepper> make_wheel_stepper(std::string_view scheme) {
+std::unique_ptr<Stepper> make_wheel_stepper(std::string_view scheme, const StepLimits& limits) {
   std::unique_ptr<Stepper> stepper;
   with_scheme(scheme, [&](auto s) {
     if constexpr (TakesWheels<decltype(s)>) {
-      stepper = std::make_unique<WheelStepper<decltype(s)>>();
+      stepper = std::make_unique<WheelStepper<decltype(s)>>(limits);
     }
   });
   if (stepper == nullptr) {

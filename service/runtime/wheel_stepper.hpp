@@ -9,6 +9,6 @@
 namespace adstar::runtime {
 
 /// Throws std::invalid_argument for a scheme that does not carry wheels.
-std::unique_ptr<Stepper> make_wheel_stepper(std::string_view scheme);
+std::unique_ptr<Stepper> make_wheel_stepper(std::string_view scheme, const StepLimits& limits);
 
 }  // namespace adstar::runtime
