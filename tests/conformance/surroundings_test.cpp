@@ -156,10 +156,12 @@ INSTANTIATE_TEST_SUITE_P(
 /// Of one lag's length of the torque's four turns, as magnetorquer.hpp has it of Simpson's rule.
 TEST(Surroundings, a_coil_whose_lag_is_far_below_the_step_errs_by_5e_5_of_the_impulse_in_a_lag) {
   const double turns_A_m2 = 2 * (norm(V{500, -300, 800}) + norm(V{-700, 100, 900}));
-  for (const double lag : {1e-3, 1e-2, 1e-1}) {
+  for (const double lag : {1e-3, 5e-3}) {
     const double most = 5e-5 * lag * turns_A_m2 * field().bound();
-    const V coarse = flown(torquer(lag), 20).H_I.value();
-    EXPECT_LT(norm(coarse - flown(torquer(lag), 2560).H_I.value()), most) << lag;
+    const V coarse = flown(torquer(lag), 200).H_I.value();
+    const double off = norm(coarse - flown(torquer(lag), 200'000).H_I.value());
+    EXPECT_LT(off, most) << lag;
+    EXPECT_GT(off, 1e-3 * most) << "nothing to see: the step is not above the lag";
   }
 }
 

@@ -95,6 +95,7 @@ TEST(TickHeap, is_not_touched_by_those_who_hold_the_clock) {
   scene::Scene scene = test::tick_scene(500);
   scene.simulation.pace = scene::Pace::lockstep;
   scene.service.run_control = true;
+  scene.spacecraft[0].target = scene::PointingTarget{};
   MappedSegment segment = MappedSegment::create(2);
   Tick tick(scene, segment);
   std::uint64_t sequence = 0;
