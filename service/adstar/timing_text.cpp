@@ -62,17 +62,19 @@ std::string timing_table(const adstar_StepTiming& t) {
   }
   text += row("the last three", t.tick_body) + "\n";
   text += fmt::format(
-      "  beats: {} late ({} after our own work, {} after the sleep), {} missed, {} caught up, {} "
-      "longer "
-      "than the period\n"
+      "  beats: {} late ({} after our own work, {} after the processor was taken away, {} after "
+      "the "
+      "sleep)\n"
+      "         {} missed, {} caught up, {} longer than the period\n"
       "  the tick's thread: {} minor and {} major page faults, {} involuntary switches\n"
       "  most waiting at once: {} commands, {} verdicts, {} samples\n",
       report::counted(t.late_beats), report::counted(t.late_after_work),
-      report::counted(t.late_after_sleep), report::counted(t.missed_beats),
-      report::counted(t.caught_up_beats), report::counted(t.overruns),
-      report::counted(t.minor_page_faults), report::counted(t.major_page_faults),
-      report::counted(t.involuntary_switches), report::counted(t.most_commands_waiting),
-      report::counted(t.most_verdicts_waiting), report::counted(t.most_telemetry_waiting));
+      report::counted(t.late_after_loss), report::counted(t.late_after_sleep),
+      report::counted(t.missed_beats), report::counted(t.caught_up_beats),
+      report::counted(t.overruns), report::counted(t.minor_page_faults),
+      report::counted(t.major_page_faults), report::counted(t.involuntary_switches),
+      report::counted(t.most_commands_waiting), report::counted(t.most_verdicts_waiting),
+      report::counted(t.most_telemetry_waiting));
   if (t.phase_disciplined) {
     text += fmt::format("  beats {} ns from the whole periods of the reference clock\n",
                         t.phase_error_ns);
@@ -100,6 +102,7 @@ std::string timing_json(const adstar_StepTiming& t) {
   line["tick_body"] = json_of(t.tick_body);
   line["late_beats"] = t.late_beats;
   line["late_after_work"] = t.late_after_work;
+  line["late_after_loss"] = t.late_after_loss;
   line["late_after_sleep"] = t.late_after_sleep;
   line["overruns"] = t.overruns;
   line["missed_beats"] = t.missed_beats;

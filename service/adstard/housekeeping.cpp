@@ -93,6 +93,7 @@ runtime::TimingRecord Housekeeping::timing(bool stopped) const {
   timing.tick_body = report.tick_body.quantiles();
   timing.late_beats = read(report.late_beats);
   timing.late_after_work = read(report.late_after_work);
+  timing.late_after_loss = read(report.late_after_loss);
   timing.late_after_sleep = read(report.late_after_sleep);
   timing.overruns = read(report.overruns);
   timing.missed_beats = read(report.missed_beats);
@@ -212,9 +213,10 @@ void Housekeeping::summarise() const {
   log_quantiles("tick body", now.tick_body);
   if (scene_.simulation.pace == scene::Pace::clock) {
     spdlog::info(
-        "{} beats late ({} after our own work, {} after the sleep), {} missed, {} caught up",
-        now.late_beats, now.late_after_work, now.late_after_sleep, now.missed_beats,
-        now.caught_up_beats);
+        "{} beats late ({} after our own work, {} after the processor was taken away, {} after the "
+        "sleep), {} missed, {} caught up",
+        now.late_beats, now.late_after_work, now.late_after_loss, now.late_after_sleep,
+        now.missed_beats, now.caught_up_beats);
     spdlog::info("{} page faults, taken off the processor {} times; FIFO {}, memory {}, {}",
                  now.account.minor_faults + now.account.major_faults,
                  now.account.involuntary_switches,

@@ -268,6 +268,7 @@ adstar_StepTiming to_sample(const runtime::TimingRecord& record,
   sample.tick_body = quantiles(record.tick_body);
   sample.late_beats = record.late_beats;
   sample.late_after_work = record.late_after_work;
+  sample.late_after_loss = record.late_after_loss;
   sample.late_after_sleep = record.late_after_sleep;
   sample.overruns = record.overruns;
   sample.missed_beats = record.missed_beats;

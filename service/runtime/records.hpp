@@ -270,7 +270,8 @@ struct TimingRecord {
   std::array<PhaseRecord, kPhases> phases;  ///< by Phase
   QuantilesRecord tick_body;
   std::uint64_t late_beats = 0;        ///< begun a period late or more
-  std::uint64_t late_after_work = 0;   ///< of those: a beat took longer than the period
+  std::uint64_t late_after_work = 0;   ///< of those: a beat worked for longer than the period
+  std::uint64_t late_after_loss = 0;   ///< of those: within a beat the processor was taken away
   std::uint64_t late_after_sleep = 0;  ///< of those: the system woke the tick late
   std::uint64_t overruns = 0;
   std::uint64_t missed_beats = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "service/runtime/tick_parts.hpp"
 
@@ -65,6 +66,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
   told_ = true;
   restart(clock, step(), first_due);
   const std::int64_t period_ns = pace_ == scene::Pace::clock ? beats_to_ns(clock, 1) : 0;
+  used_ns_ = used_by_this_thread_ns();
   std::int64_t ended = followed ? make_up(clock, stop) : due_ns(clock, step());
   report_.asked_ns.store(ended, std::memory_order_relaxed);
   while (!stop.load(std::memory_order_relaxed) && (halted() || step() < last_step_)) {
@@ -107,7 +109,7 @@ std::int64_t Tick::await_beat(BeatClock& clock, std::uint64_t n, std::int64_t en
   report_.phases[static_cast<std::size_t>(Phase::wake_up)].record(begun - due);
   judge(Phase::wake_up, begun - due);
   if (slept) {
-    late_by_work_ = false;
+    late_by_ = Cause::sleep;
   }
   catch_up_or_skip(clock, n, begun);
   return begun;
@@ -128,7 +130,10 @@ void Tick::catch_up_or_skip(BeatClock& clock, std::uint64_t n, std::int64_t begu
   const std::uint64_t behind = beats_behind(clock, n, begun_ns);
   if (behind > 0) {
     add(report_.late_beats, 1);
-    add(late_by_work_ ? report_.late_after_work : report_.late_after_sleep, 1);
+    add(late_by_ == Cause::work   ? report_.late_after_work
+        : late_by_ == Cause::loss ? report_.late_after_loss
+                                  : report_.late_after_sleep,
+        1);
     const std::int64_t late_ns = begun_ns - due_ns(clock, n);
     const std::uint64_t missed = realign(clock, n, begun_ns, catch_up_beats_);
     add(report_.missed_beats, missed);
@@ -230,9 +235,14 @@ void Tick::account(const BeatTimes& times, std::int64_t period_ns) noexcept {
   record(Phase::hand_over, times.handed_over - times.stepped);
   const std::int64_t body_ns = times.handed_over - times.begun;
   report_.tick_body.record(body_ns);
-  if (period_ns != 0 && body_ns > period_ns) {
+  if (period_ns == 0) {
+    return;
+  }
+  // With the end of its sleep, for a reading a beat is enough.
+  const std::int64_t used_before_ns = std::exchange(used_ns_, used_by_this_thread_ns());
+  if (body_ns > period_ns) {
     add(report_.overruns, 1);
-    late_by_work_ = true;
+    late_by_ = used_ns_ - used_before_ns > period_ns ? Cause::work : Cause::loss;
   }
 }
 

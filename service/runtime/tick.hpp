@@ -36,6 +36,7 @@ struct TickReport {
   std::atomic<std::uint64_t> telemetry_lost{0};
   std::atomic<std::uint64_t> late_beats{0};
   std::atomic<std::uint64_t> late_after_work{0};
+  std::atomic<std::uint64_t> late_after_loss{0};
   std::atomic<std::uint64_t> late_after_sleep{0};
   std::atomic<std::uint64_t> overruns{0};
   std::atomic<std::uint64_t> missed_beats{0};
@@ -195,7 +196,9 @@ class Tick {
   bool digests_every_step_;
   StepDigests digests_;
   std::vector<std::uint64_t> fleet_words_;
-  bool late_by_work_ = false;  ///< what made the beats since the last sleep late
+  enum class Cause { sleep, work, loss };
+  Cause late_by_ = Cause::sleep;  ///< what made the beats since the last sleep late
+  std::int64_t used_ns_ = 0;      ///< of the processor by this thread, at the end of the last beat
   TickReport report_;
 };
 

@@ -16,6 +16,13 @@ inline std::int64_t monotonic_ns() noexcept {
   return now.tv_sec * kSecond + now.tv_nsec;
 }
 
+/// Of the processor: without what the host, interrupts and other programs took of it, as far as the kernel knows.
+inline std::int64_t used_by_this_thread_ns() noexcept {
+  timespec used{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return used.tv_sec * kSecond + used.tv_nsec;
+}
+
 /// What `clock` shows more than the monotonic one. No system call: the vDSO answers.
 inline std::int64_t offset_of(clockid_t clock) noexcept {
   const std::int64_t before = monotonic_ns();

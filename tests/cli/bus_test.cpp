@@ -240,8 +240,9 @@ adstar_StepTiming some_timing() {
   timing.step_phase = {{12'345, 400, 700, 5'000, 51'000}, 6'000'000, {0, 12'345}, 50'000, 1};
   timing.hand_over_phase = {{12'345, 90, 1'900, 25'000, 60'000}, 0, {}, 0, 0};
   timing.tick_body = {12'345, 600, 2'900, 27'000, 61'000};
-  timing.late_beats = 5;
+  timing.late_beats = 6;
   timing.late_after_work = 2;
+  timing.late_after_loss = 1;
   timing.late_after_sleep = 3;
   timing.missed_beats = 5;
   timing.behind_wall_ns = 5'000'000;

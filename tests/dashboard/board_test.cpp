@@ -180,6 +180,7 @@ TEST(Metrics, count_what_the_daemon_counts) {
   adstar_StepTiming timing{};
   set_text(timing.service, "fly");
   timing.late_after_work = 2;
+  timing.late_after_loss = 1;
   timing.late_after_sleep = 3;
   timing.wake_up_lateness.took = {10, 1000, 2000, 3000, 4000};
   timing.wake_up_lateness.sum_ns = 12'000;
@@ -194,6 +195,7 @@ TEST(Metrics, count_what_the_daemon_counts) {
        {"adstar_up{service=\"fly\"} 1\n", "# TYPE adstar_steps_total counter\n",
         "adstar_steps_total{service=\"fly\"} 1500\n",
         "adstar_late_beats_total{service=\"fly\",cause=\"work\"} 2\n",
+        "adstar_late_beats_total{service=\"fly\",cause=\"loss\"} 1\n",
         "adstar_late_beats_total{service=\"fly\",cause=\"sleep\"} 3\n",
         "adstar_phase_seconds{service=\"fly\",phase=\"wake_up\",quantile=\"0.99\"} 2e-06\n",
         "# TYPE adstar_phase_duration_seconds histogram\n",

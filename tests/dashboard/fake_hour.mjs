@@ -30,7 +30,7 @@ export function frameAt(i) {
       commands_received: 0, commands_refused: 0, commands_lost: 0, verdicts_lost: 0, telemetry_lost: 0, bridge_restarts: 0,
       timing: {
         step: i, time_ns: t * 1e9, wake_up_lateness: quantiles, command_phase: quantiles, step_phase: quantiles,
-        hand_over_phase: quantiles, late_beats: 0, late_after_work: 0, late_after_sleep: 0, missed_beats: 0,
+        hand_over_phase: quantiles, late_beats: 0, late_after_work: 0, late_after_loss: 0, late_after_sleep: 0, missed_beats: 0,
         caught_up_beats: 0, overruns: 0, behind_wall_ns: 0, fifo_scheduling: true, memory_locked: true, cpu_pinned: false,
       },
     }],

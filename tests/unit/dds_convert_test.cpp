@@ -208,6 +208,7 @@ TEST(DdsConvert, timing_keeps_every_part_of_a_beat_apart) {
     record.phases[i].quarter_octaves[89] = 60 + i;
   }
   record.late_after_sleep = 3;
+  record.late_after_loss = 33;
   record.behind_ns = -5;
   record.phase_disciplined = 1;
   record.phase_error_ns = -7;
@@ -221,6 +222,7 @@ TEST(DdsConvert, timing_keeps_every_part_of_a_beat_apart) {
   EXPECT_EQ(sample.step_phase.quarter_octaves[0], 0U);
   EXPECT_EQ(sample.hand_over_phase.over_budget, 10U);
   EXPECT_EQ(sample.late_after_sleep, 3U);
+  EXPECT_EQ(sample.late_after_loss, 33U);
   EXPECT_EQ(sample.behind_wall_ns, -5);
   EXPECT_TRUE(sample.phase_disciplined);
   EXPECT_EQ(sample.phase_error_ns, -7);

@@ -1,10 +1,15 @@
 // Budgets of the parts of a beat, and what follows when the beat cannot be kept.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
+#include <ctime>
+#include <pthread.h>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "service/runtime/admission.hpp"
 #include "service/runtime/tick.hpp"
 #include "tests/support/tick_scene.hpp"
 
@@ -80,9 +85,48 @@ TEST(Overrun, skip_takes_every_step_and_lets_simulation_time_fall_behind) {
   EXPECT_GT(count(report.missed_beats), 0U);
   EXPECT_EQ(count(report.caught_up_beats), 0U);
   EXPECT_EQ(report.behind_ns.load(), static_cast<std::int64_t>(count(report.missed_beats)));
-  EXPECT_EQ(count(report.late_beats),
-            count(report.late_after_work) + count(report.late_after_sleep));
+  EXPECT_EQ(count(report.late_beats), count(report.late_after_work) +
+                                          count(report.late_after_loss) +
+                                          count(report.late_after_sleep));
   EXPECT_GT(count(report.late_after_work), 0U);
+}
+
+/// A signal's handler that sleeps: the beat that it falls into takes longer than its period, and works no more than ever.
+TEST(Overrun, of_a_processor_that_was_taken_away_is_no_work_of_ours) {
+  struct sigaction sleeps {};
+  sleeps.sa_handler = [](int) {
+    const timespec pause{0, 30'000'000};
+    nanosleep(&pause, nullptr);
+  };
+  struct sigaction before {};
+  ASSERT_EQ(sigaction(SIGUSR1, &sleeps, &before), 0);
+  scene::Scene scene = tick_scene(150);
+  scene.simulation.pace = scene::Pace::clock;
+  scene.simulation.step_ns = 20 * kMs;
+  scene.simulation.duration_ns = 150 * 20 * kMs;
+  // In so many parts that a beat works for about 6 of its 20 ms.
+  scene.simulation.limits.substep_angle_rad = 1e-300;
+  scene.simulation.limits.substeps = 1000;
+  scene.simulation.limits.substeps = 6 * kMs * scene.simulation.limits.substeps /
+                                     std::max<std::int64_t>(measure_step(scene).p99_ns, 1);
+  MappedSegment segment = MappedSegment::create(2);
+  Tick tick(scene, segment);
+  std::atomic<bool> ended{false};
+  std::thread flight([&] {
+    tick.run(kGoOn);
+    ended = true;
+  });
+  while (!ended) {
+    pthread_kill(flight.native_handle(), SIGUSR1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(47));
+  }
+  flight.join();
+  sigaction(SIGUSR1, &before, nullptr);
+  const TickReport& report = tick.report();
+  EXPECT_GT(count(report.late_after_loss), 0U);
+  EXPECT_EQ(count(report.late_after_work), 0U);
+  EXPECT_EQ(count(report.late_beats),
+            count(report.late_after_loss) + count(report.late_after_sleep));
 }
 
 TEST(Overrun, catch_up_works_beats_off_and_misses_only_those_beyond_its_bound) {

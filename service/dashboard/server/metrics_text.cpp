@@ -165,6 +165,7 @@ class Writer {
            [](Metric& out, const std::string& labels, const ServiceRecord& r) {
              if (r.timing) {
                out.add(labels + ",cause=\"work\"", fmt::format("{}", r.timing->late_after_work));
+               out.add(labels + ",cause=\"loss\"", fmt::format("{}", r.timing->late_after_loss));
                out.add(labels + ",cause=\"sleep\"", fmt::format("{}", r.timing->late_after_sleep));
              }
            });
@@ -177,7 +178,7 @@ class Writer {
                        fmt::format("{}", r.timing->caught_up_beats));
              }
            });
-    timing("adstar_overruns_total", "counter", "Beats whose own work took longer than a period.",
+    timing("adstar_overruns_total", "counter", "Beats that took longer than a period.",
            [](const Timing& t) { return t.overruns; });
     timing("adstar_behind_wall_seconds", "gauge", "Simulation time behind the wall clock.",
            [](const Timing& t) { return seconds(t.behind_wall_ns); });

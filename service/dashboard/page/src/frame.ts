@@ -43,6 +43,7 @@ export interface Timing {
   hand_over_phase: Phase;
   late_beats: number;
   late_after_work: number;
+  late_after_loss: number;
   late_after_sleep: number;
   missed_beats: number;
   caught_up_beats: number;

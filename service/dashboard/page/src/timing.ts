@@ -93,6 +93,7 @@ export class TimingChart {
     const yes = (fact: boolean, what: string) => `${what} ${fact ? "yes" : "NO"}`;
     say(this.note,
       `Beats late: ${counted(timing.late_beats)} (${counted(timing.late_after_work)} after our own work, ` +
+      `${counted(timing.late_after_loss)} after the processor was taken away, ` +
       `${counted(timing.late_after_sleep)} after the sleep); missed: ${counted(timing.missed_beats)}; ` +
       `caught up: ${counted(timing.caught_up_beats)}; longer than the period: ${counted(timing.overruns)}; ` +
       `${(timing.behind_wall_ns / 1e6).toFixed(1)} ms behind the wall clock. In force: ` +
