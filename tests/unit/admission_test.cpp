@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ctime>
 #include <memory>
 #include <unistd.h>
 
@@ -11,31 +10,20 @@
 
 #include "service/runtime/real_time.hpp"
 #include "tests/support/linked_craft.hpp"
+#include "tests/support/processor_time.hpp"
 #include "tests/support/tick_scene.hpp"
 
 namespace adstar::runtime {
 namespace {
 
 using test::kMs;
+using test::ns_of_the_processor;
 using test::tick_scene;
 
 scene::Scene paced() {
   scene::Scene scene = tick_scene(0);
   scene.simulation.pace = scene::Pace::clock;
   return scene;
-}
-
-/// A step, of the processor's time: what another process takes in between does not count.
-double ns_of_the_processor(const scene::Scene& scene) {
-  const auto now_ns = [] {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
-  };
-  const double begun = now_ns();
-  const StepCost cost = measure_step(scene);
-  EXPECT_GT(cost.p99_ns, 0);
-  return (now_ns() - begun) / static_cast<double>(cost.steps);
 }
 
 TEST(Admission, measures_the_step_at_its_dearest) {

@@ -1,5 +1,4 @@
 // Budgets of the parts of a beat, and what follows when the beat cannot be kept.
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -9,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "service/runtime/admission.hpp"
 #include "service/runtime/tick.hpp"
+#include "tests/support/processor_time.hpp"
 #include "tests/support/tick_scene.hpp"
 
 namespace adstar::runtime {
@@ -95,20 +94,21 @@ TEST(Overrun, skip_takes_every_step_and_lets_simulation_time_fall_behind) {
 TEST(Overrun, of_a_processor_that_was_taken_away_is_no_work_of_ours) {
   struct sigaction sleeps {};
   sleeps.sa_handler = [](int) {
-    const timespec pause{0, 30'000'000};
+    const timespec pause{0, 50'000'000};
     nanosleep(&pause, nullptr);
   };
   struct sigaction before {};
   ASSERT_EQ(sigaction(SIGUSR1, &sleeps, &before), 0);
-  scene::Scene scene = tick_scene(150);
+  scene::Scene scene = tick_scene(60);
   scene.simulation.pace = scene::Pace::clock;
   scene.simulation.step_ns = 20 * kMs;
-  scene.simulation.duration_ns = 150 * 20 * kMs;
-  // In so many parts that a beat works for about 6 of its 20 ms.
+  scene.simulation.duration_ns = 60 * 20 * kMs;
+  // In so many parts that a beat works for about 8 of its 20 ms.
   scene.simulation.limits.substep_angle_rad = 1e-300;
   scene.simulation.limits.substeps = 1000;
-  scene.simulation.limits.substeps = 6 * kMs * scene.simulation.limits.substeps /
-                                     std::max<std::int64_t>(measure_step(scene).p99_ns, 1);
+  scene.simulation.limits.substeps =
+      static_cast<std::int64_t>(10e6 * static_cast<double>(scene.simulation.limits.substeps) /
+                                test::ns_of_the_processor(scene));
   MappedSegment segment = MappedSegment::create(2);
   Tick tick(scene, segment);
   std::atomic<bool> ended{false};
@@ -118,7 +118,7 @@ TEST(Overrun, of_a_processor_that_was_taken_away_is_no_work_of_ours) {
   });
   while (!ended) {
     pthread_kill(flight.native_handle(), SIGUSR1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(47));
+    std::this_thread::sleep_for(std::chrono::milliseconds(71));
   }
   flight.join();
   sigaction(SIGUSR1, &before, nullptr);
