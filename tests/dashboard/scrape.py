@@ -57,7 +57,7 @@ def until(what, ask):
 def main():
     programs, source = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     if not shutil.which("prometheus"):
-        print("SKIPPED: no prometheus (apt-get install prometheus)")
+        print("SKIPPED: no prometheus (bash deploy/install-deps.sh --tests)")
         return 77
     running = []
     with tempfile.TemporaryDirectory() as home:
