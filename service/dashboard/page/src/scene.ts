@@ -26,6 +26,7 @@ import {
 import { make } from "./dom";
 import type { Motion, Triple } from "./frame";
 import { colour, onThemeChange } from "./theme";
+import { Thrift } from "./thrift";
 
 const kArrow = { axis: 1.5, momentum: 2.2, rate: 1.8, inertial: 2.3 };
 /// Longer than this without news nothing is extrapolated.
@@ -54,6 +55,7 @@ export class Scene {
   private pace = 0; // simulated seconds per second, as seen
   private dirty = true;
   private visible = true;
+  private readonly thrift = new Thrift();
   private readonly calm = matchMedia("(prefers-reduced-motion: reduce)");
   drawn = 0;
 
@@ -69,11 +71,13 @@ export class Scene {
       this.visible = entries.at(-1)!.isIntersecting;
     }).observe(place);
     this.listen();
-    const frame = () => {
+    const frame = (now_ms: number) => {
       requestAnimationFrame(frame);
-      this.draw();
+      if (this.thrift.admits(now_ms)) {
+        this.draw();
+      }
     };
-    frame();
+    requestAnimationFrame(frame);
   }
 
   show(motion: Motion): void {
@@ -117,7 +121,7 @@ export class Scene {
         new Quaternion().setFromAxisAngle(this.omega_B.clone().normalize(), angle),
       );
     }
-    this.shown.slerp(predicted, moving ? 0.25 : 1).normalize();
+    this.shown.slerp(predicted, moving ? 1 - 0.75 ** this.thrift.every : 1).normalize();
     this.body.quaternion.copy(this.shown);
     this.point(this.rate, this.omega_B.clone().applyQuaternion(this.shown));
     this.camera.position.set(
@@ -128,6 +132,7 @@ export class Scene {
     this.camera.lookAt(0, 0, 0.25);
     this.renderer.render(this.scene, this.camera);
     ++this.drawn;
+    this.thrift.drew();
   }
 
   private point(arrow: Group, direction: Vector3 | undefined): void {
@@ -143,6 +148,7 @@ export class Scene {
       this.renderer.setSize(width, height);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
+      this.thrift.reset();
       this.dirty = true;
     }
   }
