@@ -123,7 +123,7 @@ class BatchStepper final : public Stepper {
   }
 
   std::size_t step(Vehicles all, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
-    const std::span<Vehicle> vehicles(all);
+    const std::span<Vehicle> vehicles(all.first, all.last);
     const Step step{vehicles, t_ns, h_ns, seconds<double>(t_ns), seconds<double>(h_ns)};
     std::size_t unresolved = 0;
     for (std::size_t i = 0; i < vehicles.size(); ++i) {

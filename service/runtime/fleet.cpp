@@ -139,7 +139,7 @@ class RunsStepper final : public Stepper {
   std::size_t step(Vehicles vehicles, std::int64_t t_ns, std::int64_t h_ns) noexcept override {
     std::size_t unresolved = 0;
     for (Run& run : runs_) {
-      Vehicle* const first = vehicles.data() + run.first;
+      Vehicle* const first = vehicles.first + run.first;
       unresolved += run.stepper->step({first, first + run.count}, t_ns, h_ns);
     }
     return unresolved;

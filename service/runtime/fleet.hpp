@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -60,7 +59,12 @@ Vec3<double> angular_velocity_of(const Vehicle& vehicle) noexcept;
 double energy_of(const Vehicle& vehicle) noexcept;
 
 /// Some of a fleet, one beside the other. By its ends: a span would be divided into a size and multiplied out again.
-using Vehicles = std::ranges::subrange<Vehicle*>;
+struct Vehicles {
+  Vehicle* first = nullptr;
+  Vehicle* last = nullptr;
+  Vehicle* begin() const noexcept { return first; }
+  Vehicle* end() const noexcept { return last; }
+};
 
 /// Steps all vehicles with one scheme within limits that do not change; keeps what that scheme prepares once for each body.
 class Stepper {

@@ -64,7 +64,7 @@ class ThreadedStepper final : public Stepper {
   };
 
   void run(Part& part) noexcept {
-    Vehicle* const first = job_.vehicles.data() + part.first;
+    Vehicle* const first = job_.vehicles.first + part.first;
     part.unresolved = part.stepper->step({first, first + part.count}, job_.t_ns, job_.h_ns);
   }
 
