@@ -161,11 +161,11 @@ TEST(Joiner, a_half_of_an_ended_run_is_not_joined_with_one_of_the_next) {
 
 TEST(Joiner, each_who_speaks_at_once_is_joined_with_itself) {
   Joiner joiner;
-  for (const std::uint64_t step : {0, 1}) {
-    for (const std::uint64_t from : {1000, 700, 400, 100}) {
+  for (const std::uint64_t step : {0U, 1U}) {
+    for (const std::uint64_t from : {1000U, 700U, 400U, 100U}) {
       joiner.add(attitude(from + step));
     }
-    for (const std::uint64_t from : {1000, 700, 400, 100}) {
+    for (const std::uint64_t from : {1000U, 700U, 400U, 100U}) {
       joiner.add(momentum(from + step));
     }
     EXPECT_EQ(described(joiner.end_round()),
@@ -176,7 +176,7 @@ TEST(Joiner, each_who_speaks_at_once_is_joined_with_itself) {
 
 TEST(Joiner, what_waits_is_given_out_when_more_speak_at_once_than_it_keeps_apart) {
   Joiner joiner(Joiner::Patience::both_topics);
-  for (const std::uint64_t from : {1000, 700, 400, 100}) {
+  for (const std::uint64_t from : {1000U, 700U, 400U, 100U}) {
     joiner.add(attitude(from));
   }
   EXPECT_EQ(described(joiner.end_round()), "");
