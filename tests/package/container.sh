@@ -58,6 +58,7 @@ cp -r "$work/keys/daemon" "$work/secured/keys"
 } > "$work/secured/demo.toml"
 chown -R $account:$account "$work/secured/keys"
 install -d -o $account -g $account -m 700 "$work/runs"
+container=$(in_store from localhost/adstar)  # the other one has a run of its own where these are mounted
 mine=(--volume "$work/runs:/var/lib/adstar" --volume "$work/secured:/etc/adstar:ro")  # buildah 1.28 mounts over a VOLUME what comes first alone
 ! fly "${mine[@]}" || fail "$user of the image has read keys of somebody else's"
 grep -q 'private_key: got .*cannot be read' "$work/log" || fail "somebody else's keys"
