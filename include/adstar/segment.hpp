@@ -76,6 +76,12 @@ template <class T>
   return next;
 }
 
+template <class T>
+Vec3<T> damping_torque(const Segment<T>& segment, const Vec3<T>& omega_B) {
+  const Vec3<T>& c = segment.damping;
+  return {-(c.x * omega_B.x), -(c.y * omega_B.y), -(c.z * omega_B.z)};
+}
+
 /// What looks at the attitude or at omega_B, added to what does not; t_s: of the stage.
 template <class T>
 void add_stage_torques(TorqueSample<T>& sum, const Segment<T>& segment,
@@ -93,8 +99,7 @@ void add_stage_torques(TorqueSample<T>& sum, const Segment<T>& segment,
     }
   }
   if (segment.damped) {
-    const Vec3<T>&c = segment.damping, &omega = stage.omega_B;
-    sum.body = sum.body - Vec3<T>{c.x * omega.x, c.y * omega.y, c.z * omega.z};
+    sum.body = sum.body + damping_torque(segment, stage.omega_B);
   }
 }
 

@@ -16,6 +16,7 @@ namespace adstar {
 template <class T>
 struct SinCos {
   T sin, cos;
+  friend bool operator==(const SinCos&, const SinCos&) = default;
 };
 
 namespace detail {

@@ -47,6 +47,7 @@ struct EarthRotation {
     const SinCos<T> s = sincos(angle_rad + rate_rad_s * t_s);
     return {s.cos * Q_x + s.sin * Q_y, s.cos * Q_y - s.sin * Q_x, Q_z};
   }
+  friend bool operator==(const EarthRotation&, const EarthRotation&) = default;
 };
 
 }  // namespace adstar

@@ -38,6 +38,7 @@ struct SunMotion {
     return {{longitude.cos, T(kCosine) * longitude.sin, T(kSine) * longitude.sin},
             T(1.000140612) - T(0.016708617) * M.cos - T(0.000139589) * cosine_2M};
   }
+  friend bool operator==(const SunMotion&, const SunMotion&) = default;
 };
 
 /// The Sun is never nearer [au].

@@ -92,56 +92,35 @@ std::span<const Torque<T>> torques_of(const LinkedFlight<T>& flight, std::span<c
   return all.subspan(first, flight.first_torque[body + 1] - first);
 }
 
-/// Of those among the models of a body that push [N].
-template <class T>
-Vec3<T> push_on(std::span<const Torque<T>> own, const T& t_s, const Quat<T>& q_IB) {
-  Vec3<T> push{};
-  for (const Torque<T>& torque : own) {
-    std::visit(
-        [&](const auto& model) {
-          if constexpr (requires { model.force_I(t_s, q_IB); }) {
-            push = push + model.force_I(t_s, q_IB);
-          }
-        },
-        torque);
-  }
-  return push;
-}
+/// A model that pushes as well as turns.
+template <class Model>
+concept Pushes = requires(const Model& model, const Quat<typename Model::Scalar>& q_IB) {
+  model.force_I(typename Model::Around{}, q_IB);
+};
 
 template <class T>
 bool pushes(const Torque<T>& torque) {
-  return std::visit(
-      [](const auto& model) {
-        return requires { model.force_I(T{}, Quat<T>{}); };
-      },
-      torque);
+  return std::visit([]<class Model>(const Model&) { return Pushes<Model>; }, torque);
 }
 
-/// What acts on a body at a stage, the segment having begun at t_s.
-template <class T>
-BodyLoad<T> load_of(const LinkedFlight<T>& flight, std::span<const Torque<T>> all, const T& t_s,
-                    const LoadStage<T>& stage) {
-  const auto& segment = flight.segments[stage.body];
-  const std::span<const Torque<T>> own = torques_of(flight, all, stage.body);
-  TorqueSample<T> tau = adstar::detail::torque_at(segment, own, t_s, stage.time_s);
-  const BodyMotion<T>& motion = stage.motion;
-  const T now_s = t_s + stage.time_s;
-  if (segment.oriented || segment.damped) {
-    const Rotation<T> none(Vec3<T>{});
-    const Stage<T> at{stage.time_s, rotate_inverse(motion.q_IB, motion.omega_I), motion.q_IB, none};
-    adstar::detail::add_stage_torques(tau, segment, own, now_s, at);
+/// What is around a spacecraft at a stage, worked out once for all of its bodies.
+template <class Model>
+class Around {
+ public:
+  const typename Model::Around& at(const Model& model, const typename Model::Scalar& t_s) {
+    if (of_ == nullptr || t_s != t_s_ || !model.is_around_too(*of_)) {
+      of_ = &model;
+      t_s_ = t_s;
+      around_ = model.around_at(t_s);
+    }
+    return around_;
   }
-  BodyLoad<T> load{tau.body, tau.inertial, {}, push_on(own, now_s, motion.q_IB)};
-  if (flight.tide) {
-    const OrbitPosition<T> place = position_at(*flight.tide, now_s);
-    const T& r = place.distance_m;
-    const T strength =
-        flight.assembly.bodies()[stage.body].mass * (gravity_of(*flight.tide) / r / r / r);
-    const Vec3<T>& u = place.direction_I;
-    load.force_I = load.force_I + strength * (T(3) * dot(motion.x_I, u) * u - motion.x_I);
-  }
-  return load;
-}
+
+ private:
+  const Model* of_ = nullptr;
+  typename Model::Scalar t_s_{};
+  typename Model::Around around_{};
+};
 
 /// What acts on the bodies over a segment that began at t_s.
 template <class T>
@@ -149,11 +128,35 @@ struct FlightLoad {
   const LinkedFlight<T>& flight;
   std::span<const Torque<T>> torques;
   T t_s{};
+  bool pushed = std::any_of(torques.begin(), torques.end(), pushes<T>);
+  mutable Around<Aerodynamic<T>> air{};
+  mutable Around<SolarPressure<T>> light{};
 
-  bool keeps_centre() const { return std::any_of(torques.begin(), torques.end(), pushes<T>); }
+  bool keeps_centre() const { return pushed; }
 
   BodyLoad<T> operator()(const LoadStage<T>& stage) const {
-    return load_of(flight, torques, t_s, stage);
+    const auto& segment = flight.segments[stage.body];
+    const std::span<const Torque<T>> own = torques_of(flight, torques, stage.body);
+    const TorqueSample<T> tau = adstar::detail::torque_at(segment, own, t_s, stage.time_s);
+    const BodyMotion<T>& motion = stage.motion;
+    const T now_s = t_s + stage.time_s;
+    BodyLoad<T> load{tau.body, tau.inertial, {}, {}};
+    if (segment.oriented) {
+      add_oriented(load, own, now_s, motion.q_IB);
+    }
+    if (segment.damped) {
+      load.torque_B = load.torque_B + adstar::detail::damping_torque(
+                                          segment, rotate_inverse(motion.q_IB, motion.omega_I));
+    }
+    if (flight.tide) {
+      const OrbitPosition<T> place = position_at(*flight.tide, now_s);
+      const T& r = place.distance_m;
+      const T strength =
+          flight.assembly.bodies()[stage.body].mass * (gravity_of(*flight.tide) / r / r / r);
+      const Vec3<T>& u = place.direction_I;
+      load.force_I = load.force_I + strength * (T(3) * dot(motion.x_I, u) * u - motion.x_I);
+    }
+    return load;
   }
 
   /// The fastest rate at which a body of its own loses omega_B to it [1/s].
@@ -166,6 +169,32 @@ struct FlightLoad {
                                  flight.assembly.bodies()[i].rigid.inverse_moments()[0]);
     }
     return fastest;
+  }
+
+ private:
+  void add_oriented(BodyLoad<T>& load, std::span<const Torque<T>> own, const T& now_s,
+                    const Quat<T>& q_IB) const {
+    for (const Torque<T>& torque : own) {
+      std::visit(
+          [&]<class Model>(const Model& model) {
+            if constexpr (Pushes<Model>) {
+              const typename Model::Around& around = around_of(model, now_s);
+              load.torque_B = load.torque_B + model.torque_B(around, q_IB);
+              load.force_I = load.force_I + model.force_I(around, q_IB);
+            } else if constexpr (requires { model.at(now_s, q_IB); }) {
+              load.torque_B = load.torque_B + model.at(now_s, q_IB);
+            }
+          },
+          torque);
+    }
+  }
+
+  const typename Aerodynamic<T>::Around& around_of(const Aerodynamic<T>& m, const T& now_s) const {
+    return air.at(m, now_s);
+  }
+  const typename SolarPressure<T>::Around& around_of(const SolarPressure<T>& m,
+                                                     const T& now_s) const {
+    return light.at(m, now_s);
   }
 };
 

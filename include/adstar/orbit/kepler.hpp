@@ -28,6 +28,7 @@ struct OrbitElements {
   T argument_of_periapsis_rad{};
   T mean_anomaly_rad{};
   T gravity_m3_s2 = T(kEarthGravity_m3_s2);
+  friend bool operator==(const OrbitElements&, const OrbitElements&) = default;
 };
 
 template <class T>
@@ -38,6 +39,7 @@ struct KeplerOrbit {
   T mean_anomaly_rad{};  ///< at t = 0
   T gravity_m3_s2{};
   Vec3<T> P, Q;  ///< unit, in I
+  friend bool operator==(const KeplerOrbit&, const KeplerOrbit&) = default;
 };
 
 template <class T>
@@ -85,6 +87,7 @@ template <class T>
 struct OrbitPosition {
   Vec3<T> direction_I;
   T distance_m{};
+  friend bool operator==(const OrbitPosition&, const OrbitPosition&) = default;
 };
 
 template <class T>

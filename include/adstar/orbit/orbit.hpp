@@ -21,6 +21,7 @@ template <class T>
 struct FixedPosition {
   OrbitPosition<T> position;
   T gravity_m3_s2 = T(kEarthGravity_m3_s2);
+  friend bool operator==(const FixedPosition&, const FixedPosition&) = default;
 };
 
 template <class T>

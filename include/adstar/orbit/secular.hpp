@@ -25,6 +25,7 @@ struct SecularOrbit {
   T periapsis_rate_rad_s{};  ///< ω'
   T anomaly_rate_rad_s{};    ///< M'
   SinCos<T> tilt;            ///< of the inclination
+  friend bool operator==(const SecularOrbit&, const SecularOrbit&) = default;
 };
 
 /// Without J2 the ellipse stands still: make_orbit()'s.

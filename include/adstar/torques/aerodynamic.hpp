@@ -17,6 +17,7 @@ namespace adstar {
 
 template <class T>
 struct Aerodynamic {
+  using Scalar = T;
   static constexpr const char* kName = "aerodynamic";
   static constexpr Frame frame = Frame::body;
   Orbit<T> orbit;
@@ -24,9 +25,32 @@ struct Aerodynamic {
   Facets<T> facets;         ///< not null
   T density_factor = T(1);  ///< on the density of the table
 
+  /// What is there whatever the attitude.
+  struct Around {
+    Vec3<T> u_I;  ///< v/|v|; zero where the air stands still
+    T pressure_N_m2{};
+  };
+  Around around_at(const T& t_s) const {
+    const OrbitMotion<T> motion = motion_at(orbit, t_s);
+    const Vec3<T> v_I = velocity_in_air(motion, rotation);
+    const T speed = norm(v_I);
+    if (!(speed > T(0))) {
+      return {};
+    }
+    const T density =
+        density_factor * air_density(altitude_of(position_of(motion), rotation.pole_I()));
+    return {(T(1) / speed) * v_I, T(0.5) * density * speed * speed};
+  }
+  /// Whether that is the same for the other, whatever its plates.
+  bool is_around_too(const Aerodynamic& other) const {
+    return orbit == other.orbit && rotation == other.rotation &&
+           density_factor == other.density_factor;
+  }
+
   /// `q_IB`: of any length but zero.
-  Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const {
-    const Wind wind = wind_at(t_s);
+  Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const { return torque_B(around_at(t_s), q_IB); }
+
+  Vec3<T> torque_B(const Around& wind, const Quat<T>& q_IB) const {
     const Vec3<T> u_B = rotate_inverse(normalised(q_IB), wind.u_I);
     Vec3<T> moment{};
     for (const Facet<T>& facet : *facets) {
@@ -40,8 +64,7 @@ struct Aerodynamic {
   }
 
   /// Σ F_i [N].
-  Vec3<T> force_I(const T& t_s, const Quat<T>& q_IB) const {
-    const Wind wind = wind_at(t_s);
+  Vec3<T> force_I(const Around& wind, const Quat<T>& q_IB) const {
     const Vec3<T> u_B = rotate_inverse(normalised(q_IB), wind.u_I);
     T area{};
     for (const Facet<T>& facet : *facets) {
@@ -78,23 +101,6 @@ struct Aerodynamic {
     const T density = T(1.01) * density_factor * air_density(T(distance - T(kEarthRadius_m)));
     const T speed = greatest_speed(orbit) + abs(rotation.rate_rad_s) * distance;
     return T(0.5) * density * speed * speed;
-  }
-
-  struct Wind {
-    Vec3<T> u_I;  ///< unit; zero where the air stands still
-    T pressure_N_m2{};
-  };
-
-  Wind wind_at(const T& t_s) const {
-    const OrbitMotion<T> motion = motion_at(orbit, t_s);
-    const Vec3<T> v_I = velocity_in_air(motion, rotation);
-    const T speed = norm(v_I);
-    if (!(speed > T(0))) {
-      return {};
-    }
-    const T density =
-        density_factor * air_density(altitude_of(position_of(motion), rotation.pole_I()));
-    return {(T(1) / speed) * v_I, T(0.5) * density * speed * speed};
   }
 };
 

@@ -19,6 +19,7 @@ inline constexpr double kSolarPressure_N_m2 = 1361.0 / 299792458.0;
 
 template <class T>
 struct SolarPressure {
+  using Scalar = T;
   static constexpr const char* kName = "solar_pressure";
   static constexpr Frame frame = Frame::body;
   Orbit<T> orbit;
@@ -28,9 +29,31 @@ struct SolarPressure {
   bool seasonal = true;  ///< the Sun's distance counts (±3.4 %); else it is 1 au
   T pressure_N_m2 = T(kSolarPressure_N_m2);
 
+  /// What is there whatever the attitude.
+  struct Around {
+    Vec3<T> u_I;  ///< unit, to the Sun
+    T pressure_N_m2{};
+  };
+  Around around_at(const T& t_s) const {
+    const SunPosition<T> position = sun.at(t_s);
+    const T light =
+        shadow == Shadow::none ? T(1) : light_at(shadow, position_at(orbit, t_s), position);
+    if (!(light > T(0))) {
+      return {};
+    }
+    const T distance = seasonal ? position.distance_au : T(1);
+    return {position.direction_I, light * pressure_N_m2 / (distance * distance)};
+  }
+  /// Whether that is the same for the other, whatever its plates.
+  bool is_around_too(const SolarPressure& other) const {
+    return orbit == other.orbit && sun == other.sun && shadow == other.shadow &&
+           seasonal == other.seasonal && pressure_N_m2 == other.pressure_N_m2;
+  }
+
   /// `q_IB`: of any length but zero.
-  Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const {
-    const Light light = light_on(t_s);
+  Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const { return torque_B(around_at(t_s), q_IB); }
+
+  Vec3<T> torque_B(const Around& light, const Quat<T>& q_IB) const {
     if (!(light.pressure_N_m2 > T(0))) {
       return {};
     }
@@ -47,8 +70,7 @@ struct SolarPressure {
   }
 
   /// Σ F_i [N].
-  Vec3<T> force_I(const T& t_s, const Quat<T>& q_IB) const {
-    const Light light = light_on(t_s);
+  Vec3<T> force_I(const Around& light, const Quat<T>& q_IB) const {
     if (!(light.pressure_N_m2 > T(0))) {
       return {};
     }
@@ -88,22 +110,6 @@ struct SolarPressure {
   }
   static T most_of(const Facet<T>& facet) {
     return facet.area_m2 * (T(1) + facet.specular + T(2) * facet.diffuse / T(3));
-  }
-
-  struct Light {
-    Vec3<T> u_I;  ///< unit, to the Sun
-    T pressure_N_m2{};
-  };
-
-  Light light_on(const T& t_s) const {
-    const SunPosition<T> position = sun.at(t_s);
-    const T light =
-        shadow == Shadow::none ? T(1) : light_at(shadow, position_at(orbit, t_s), position);
-    if (!(light > T(0))) {
-      return {};
-    }
-    const T distance = seasonal ? position.distance_au : T(1);
-    return {position.direction_I, light * pressure_N_m2 / (distance * distance)};
   }
 
   /// (1 - s) u + 2 (s cos + k/3) n.
