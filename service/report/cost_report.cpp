@@ -122,7 +122,8 @@ std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>
 
 std::string worths_of(const scene::Spacecraft& craft, const scene::Simulation& simulation) {
   const double horizon = horizon_of(simulation, craft);
-  std::string text = fmt::format("over {} s\n", short_number(horizon));
+  std::string text = fmt::format("over {} s{}\n", short_number(horizon),
+                                 craft.linked ? ", the joints as at the start" : "");
   if (!craft.orbit) {
     return text + "    not estimable without an orbit\n";
   }

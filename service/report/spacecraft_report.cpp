@@ -128,13 +128,20 @@ std::string acts_on(const scene::Spacecraft& craft, std::size_t i, bool& tell) {
   const auto body = static_cast<std::size_t>(next - craft.first_torque.begin()) - 1;
   if (std::holds_alternative<GravityGradient<double>>(craft.torques[i])) {
     tell = body == 0;
-    return ", of the hub, and on each body its own";
+    return ", of the hub; on each body its own, and the tide between them";
   }
   constexpr std::ptrdiff_t kFew = 4;
   const auto& all = craft.torques;
   const auto alike = [&](const Torque<double>& other) { return other.index() == all[i].index(); };
   const auto count = std::count_if(all.begin(), all.end(), alike);
   std::string on = fmt::format(", on '{}'", craft.linked->bodies[body].name);
+  std::visit(
+      [&](const auto& model) {
+        if constexpr (requires { model.force_bound(); }) {
+          on += fmt::format(" with at most {} N", short_number(model.force_bound()));
+        }
+      },
+      all[i]);
   if (multibody::pushes(all[i]) && count > kFew) {
     tell =
         std::find_if(all.begin(), all.end(), alike) - all.begin() == static_cast<std::ptrdiff_t>(i);

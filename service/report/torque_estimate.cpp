@@ -5,6 +5,8 @@
 #include <numbers>
 #include <variant>
 
+#include <Eigen/Geometry>
+
 #include "adstar/earth/atmosphere.hpp"
 #include "adstar/earth/dipole.hpp"
 
@@ -47,6 +49,22 @@ std::optional<double> bound_of_all(const scene::Spacecraft& craft) {
   return sum;
 }
 
+/// Of all bodies about their common centre of mass, as they stand at the start.
+Eigen::Matrix3d inertia_of_whole(const scene::Spacecraft& craft) {
+  if (!craft.linked) {
+    return craft.inertia_body_kg_m2;
+  }
+  Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
+  for (const multibody::BodySpec<double>& body : craft.linked->bodies) {
+    const Quat<double>& q = body.q_IB;
+    const Eigen::Matrix3d R = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().matrix();
+    const Eigen::Vector3d x(body.x_I.x, body.x_I.y, body.x_I.z);
+    J += R * body.inertia_B * R.transpose() +
+         body.mass_kg * (x.squaredNorm() * Eigen::Matrix3d::Identity() - x * x.transpose());
+  }
+  return 0.5 * (J + J.transpose());
+}
+
 double turn_of(double torque_n_m, double least_moment, double horizon_s) {
   return std::min(std::numbers::pi, 0.5 * torque_n_m / least_moment * horizon_s * horizon_s);
 }
@@ -72,7 +90,7 @@ double horizon_of(const scene::Simulation& simulation, const scene::Spacecraft& 
 }
 
 std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double horizon_s) {
-  const RigidBody<double> body(craft.inertia_body_kg_m2);
+  const RigidBody<double> body(inertia_of_whole(craft));
   const auto& moments = body.moments();
   const Cube cube = cube_of((moments[0] + moments[1] + moments[2]) / 3);
   constexpr double kOffset = 0.1, kDrag = 2.2, kDipole_a_m2_kg = 3e-3, kReflection = 1.5;
@@ -94,9 +112,15 @@ std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double 
   };
   using Guess = std::optional<double>;
   const bool earth = r && is_about_the_earth(*craft.orbit);
-  add(GravityGradient<double>::kName, bound_of_all<GravityGradient<double>>(craft), [&]() -> Guess {
+  const auto gradient = [&]() -> Guess {
     return 1.5 * gravity_of(*craft.orbit) / *r / *r / *r * (moments[2] - moments[0]);
-  });
+  };
+  // Of linked bodies the tide between them is nearly all of it.
+  std::optional<double> modelled = bound_of_all<GravityGradient<double>>(craft);
+  if (modelled && craft.linked) {
+    modelled = gradient();
+  }
+  add(GravityGradient<double>::kName, modelled, gradient);
   add(ResidualDipole<double>::kName, bound_of_all<ResidualDipole<double>>(craft), [&]() -> Guess {
     return earth ? Guess(kDipole_a_m2_kg * cube.mass_kg * DipoleField<double>{}.bound(*r))
                  : std::nullopt;

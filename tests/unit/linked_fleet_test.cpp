@@ -247,6 +247,28 @@ TEST(LinkedFleet, two_bodies_held_together_are_turned_by_air_and_sunlight_as_one
   EXPECT_LT(norm(Vec3<double>{a.x - b.x, a.y - b.y, a.z - b.z}), 1e-8);
 }
 
+TEST(LinkedFleet, what_pushes_is_reported_with_its_force_body_by_body_and_of_many_once) {
+  const auto reported = [](const std::string& count) {
+    return report::scene_report(scene::parse(
+        pushed_head("1s") + kTwoOutsides +
+            "[[spacecraft.joint]]\nname = \"a\"\nkind = \"fixed\"\nfrom = \"hub\"\nto = \"tip\"\n"
+            "point_from_body_m = [4, 0, 0]\npoint_to_body_m = [0, 0, 0]\n"
+            "[[spacecraft.chain]]\nname = \"link{}\"\ncount = " +
+            count +
+            "\nfrom = \"tip\"\nmass_kg = 1\ninertia_body_kg_m2 = [0.1, 0.1, 0.1]\n"
+            "box = { size_m = [1, 1, 1] }\nkind = \"fixed\"\npoint_from_body_m = [1, 0, 0]\n"
+            "point_to_body_m = [0, 0, 0]\n" +
+            kLowOrbit + "[[spacecraft.torque]]\nmodel = \"solar_pressure\"\n",
+        "many.toml"));
+  };
+  // 4.54e-6 N/m² at 1 au, 3.4 % more at the least distance, on 4 m² of black plates.
+  EXPECT_NE(reported("2").find(", on 'tip' with at most 1.87"), std::string::npos) << reported("2");
+  EXPECT_NE(reported("2").find(", on 'link1' with at most 2.8"), std::string::npos);
+  const std::string many = reported("9");
+  EXPECT_NE(many.find(" and 10 others, each by its own outside"), std::string::npos) << many;
+  EXPECT_EQ(many.find(", on 'link"), std::string::npos);
+}
+
 TEST(LinkedFleet, what_pushes_leaves_the_common_centre_of_mass_where_it_is) {
   const scene::Scene scene = scene::parse(
       pushed_head("500ms") + kTwoOutsides +
@@ -265,6 +287,34 @@ TEST(LinkedFleet, what_pushes_leaves_the_common_centre_of_mass_where_it_is) {
   EXPECT_LT(norm(multibody::total_momentum(flight.assembly, flight.state).p_I.value()), 1e-14);
   EXPECT_LT(momentum_residual_relative(fleet.vehicles()[0]), 1e-13);
   EXPECT_GT(std::fabs(flight.state.coordinates[0][0]), 1e-3) << "the wind bends it";
+  const TelemetryRecord told = sample(fleet.vehicles()[0]);
+  EXPECT_LT(std::fabs(told.energy_residual_j), 1e-6 * std::fabs(told.work_j))
+      << "what they did is the work of their pushes";
+}
+
+/// Each of them alone, and both of them with the tide: what a push has in common is taken off, what the tide has is none.
+TEST(LinkedFleet, what_pushes_stands_beside_the_tide) {
+  const auto flown = [](const std::string& torques) {
+    Fleet fleet(
+        scene::parse(pushed_head("500ms") + kTwoOutsides +
+                         "[[spacecraft.joint]]\nname = \"hinge\"\nkind = \"revolute\"\nfrom = "
+                         "\"hub\"\nto = \"tip\"\npoint_from_body_m = [4, 0, 0]\n"
+                         "point_to_body_m = [-0.5, 0, 0]\naxis_body = [0, 1, 0]\n" +
+                         kLowOrbit + torques,
+                     "hinge.toml")
+            .spacecraft,
+        "coadjoint_rk4", StepLimits{});
+    for (std::int64_t n = 0; n < 20; ++n) {
+      fleet.step(n * 500 * kMs, 500 * kMs);
+    }
+    const Vehicle& vehicle = fleet.vehicles()[0];
+    return vehicle.state.H_I.value() - vehicle.H_0;
+  };
+  const std::string tide = "[[spacecraft.torque]]\nmodel = \"gravity_gradient\"\n";
+  const Vec3<double> pushed = flown(kPushed), pulled = flown(tide), both = flown(kPushed + tide);
+  EXPECT_GT(norm(pushed), 1e-4);
+  EXPECT_GT(norm(pulled), 1e-4);
+  EXPECT_LT(norm(both - (pushed + pulled)), 1e-3 * norm(both)) << "in ten seconds they add up";
 }
 
 /// A parallelogram of four bars that folds flat: there its loads are not unique, and that is said.

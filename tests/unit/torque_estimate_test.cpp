@@ -66,13 +66,42 @@ TEST(TorqueEstimate, of_what_is_left_out_has_the_right_order) {
 }
 
 TEST(TorqueEstimate, counts_every_torque_of_a_kind) {
-  const std::string light = "[[spacecraft.torque]]\nmodel = \"solar_pressure\"\n";
-  const std::string box = "[spacecraft.box]\nsize_m = [1, 1, 2]\n";
+  const std::string dipole =
+      "[[spacecraft.torque]]\nmodel = \"residual_dipole\"\ndipole_body_a_m2 = [0, 0, 0.1]\n";
   const auto torque = [&](const std::string& torques) {
-    const scene::Scene scene = read(kOrbit + box + torques, "epoch_utc = 2026-01-01T00:00:00Z\n");
-    return *of(estimates_of(scene.spacecraft[0], 10), "solar_pressure").torque_n_m;
+    const scene::Scene scene = read(kOrbit + torques, "epoch_utc = 2026-01-01T00:00:00Z\n");
+    return *of(estimates_of(scene.spacecraft[0], 10), "residual_dipole").torque_n_m;
   };
-  EXPECT_NEAR(torque(light + light) / torque(light), 2, 1e-12);
+  EXPECT_NEAR(torque(dipole + dipole) / torque(dipole), 2, 1e-12);
+}
+
+/// A point of 5 kg on a boom of 5 m: 5 · 10/15 · 5² = 83 kg m² across it, where the hub has the same about any axis.
+TEST(TorqueEstimate, of_linked_bodies_is_that_of_the_whole) {
+  const auto boom = [](const std::string& more) {
+    return read("mass_kg = 10\n" + kOrbit + "[[spacecraft.body]]\nname = \"tip\"\nmass_kg = 5\n" +
+                    "inertia_body_kg_m2 = [0.01, 0.01, 0.01]\n" + more +
+                    "[[spacecraft.joint]]\nname = \"boom\"\nkind = \"fixed\"\nfrom = \"hub\"\n" +
+                    "to = \"tip\"\npoint_from_body_m = [5, 0, 0]\npoint_to_body_m = [0, 0, 0]\n",
+                "epoch_utc = 2026-01-01T00:00:00Z\n")
+        .spacecraft[0];
+  };
+  const std::string gravity = "[[spacecraft.torque]]\nmodel = \"gravity_gradient\"\n";
+  const std::string light = "[[spacecraft.torque]]\nmodel = \"solar_pressure\"\n";
+  scene::Spacecraft craft = boom(
+      "facet = [ { area_m2 = 1.0, normal_body = [0, 0, 1], "
+      "centre_body_m = [0, 0, 0] } ]\n" +
+      gravity + light);
+  const auto modelled = estimates_of(craft, 10);
+  const TorqueEstimate gradient = of(modelled, "gravity_gradient");
+  // 1.5 · 3.986e14 / 7e6³ · 83: to the inertia of hub and tip.
+  EXPECT_NEAR(*gradient.torque_n_m / (1.5 * 3.986004418e14 / 343e18 * 83.33), 1, 0.05);
+  const auto left_out = estimates_of(boom(""), 10);
+  EXPECT_EQ(of(left_out, "gravity_gradient").torque_n_m, gradient.torque_n_m);
+  // The push on the tip, whose plate has no arm about the tip itself, by 3.3 m.
+  const double push = 1.034 * kSolarPressure_N_m2;
+  const TorqueEstimate pushed = of(modelled, "solar_pressure");
+  EXPECT_NEAR(*pushed.torque_n_m / (push * 5.0 * 10 / 15), 1, 0.01);
+  EXPECT_LT(pushed.turn_rad, 0.51 * *pushed.torque_n_m / 0.9 * 100) << "of the whole's inertia";
 }
 
 TEST(TorqueEstimate, knows_no_air_no_field_and_no_sun_about_another_body) {
