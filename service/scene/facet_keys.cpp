@@ -29,7 +29,7 @@ Facet<double> read_surface(Keys& keys) {
 
 std::vector<Facet<double>> read_box(const Value& value) {
   constexpr std::string_view kSize = "[1.0, 1.0, 2.0]";
-  Keys keys(value, "size_m = [1.0, 1.0, 2.0] in [spacecraft.box]");
+  Keys keys(value, "box = { size_m = [1.0, 1.0, 2.0] }");
   const Value size_value = keys.required("size_m", {"3 lengths along the body axes", kSize});
   const auto size = read_vector(size_value, kSize);
   if (size && !(size->x > 0 && size->y > 0 && size->z > 0)) {
@@ -44,7 +44,9 @@ std::vector<Facet<double>> read_box(const Value& value) {
 
 Facet<double> read_facet(const Value& value) {
   constexpr std::string_view kNormal = "[1.0, 0.0, 0.0]", kCentre = "[0.5, 0.0, 0.0]";
-  Keys keys(value, "[[spacecraft.facet]] blocks");
+  Keys keys(value,
+            "facet = [ { area_m2 = 1.0, normal_body = [1.0, 0.0, 0.0], centre_body_m = [0.5, 0.0, "
+            "0.0] } ]");
   const Want area{"an area above 0 m^2", "1.5"};
   const double area_m2 = read_positive(keys.required("area_m2", area), area).value_or(1);
   const Value normal_value =
@@ -79,7 +81,8 @@ Facets<double> read_facets(Keys& spacecraft) {
   }
   const Value plates = spacecraft.optional("facet");
   if (plates && !plates.is(Node::Kind::array)) {
-    plates.refuse("an array of tables", "[[spacecraft.facet]], in double brackets");
+    plates.refuse("an array of tables",
+                  "facet = [ { area_m2 = 1.0, ... } ], or in double brackets");
   } else if (plates) {
     const std::size_t count = plates.node().items.size();
     if (count > kMostFacets) {

@@ -35,11 +35,12 @@ const Earth* need_earth(Keys& keys, const TorqueContext& context, std::string_vi
 const Facets<double>* need_facets(Keys& keys, const TorqueContext& context,
                                   std::string_view model) {
   if (context.facets == nullptr) {
-    keys.complaints().add(keys.place(), keys.path() + ".model", in_quotes(model),
-                          context.linked == nullptr
-                              ? "an outside of the spacecraft beside it"
-                              : "an outside of the body that it acts on: a box or facets",
-                          "[spacecraft.box] with size_m = [1.0, 1.0, 2.0]");
+    const bool one = context.linked == nullptr;
+    keys.complaints().add(
+        keys.place(), keys.path() + ".model", in_quotes(model),
+        one ? "an outside of the spacecraft beside it" : "an outside of the body that it acts on",
+        one ? "[spacecraft.box] with size_m = [1.0, 1.0, 2.0]"
+            : "box = { size_m = [1.0, 1.0, 2.0] } in that body's own block");
     return nullptr;
   }
   return &context.facets;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <set>
+#include <utility>
 #include <variant>
 
 #include "service/scene/nearest.hpp"
@@ -270,7 +272,34 @@ std::vector<TorquePlan> read_torque(const Value& value, const TorqueContext& con
     }
   }
   keys.refuse_unknown();
+  for (TorquePlan& plan : plans) {
+    plan.model = name;
+    plan.place = keys.place();
+    plan.path = keys.path() + ".model";
+  }
   return plans;
+}
+
+/// What is there once would be counted twice.
+void refuse_repeated_surroundings(const std::vector<TorquePlan>& plans, const LinkedPlan* linked,
+                                  Complaints& complaints) {
+  std::set<std::pair<std::string_view, std::size_t>> seen;
+  std::string_view told;
+  for (const TorquePlan& plan : plans) {
+    const bool once = plan.model == GravityGradient<double>::kName ||
+                      plan.model == Aerodynamic<double>::kName ||
+                      plan.model == SolarPressure<double>::kName;
+    if (!once || seen.emplace(plan.model, plan.body).second || told == plan.path) {
+      continue;
+    }
+    told = plan.path;
+    complaints.add(
+        plan.place, plan.path,
+        in_quotes(plan.model) + " again" +
+            (linked == nullptr ? "" : " on " + in_quotes(linked->linked.bodies[plan.body].name)),
+        "one of them, for it is there but once",
+        linked == nullptr ? "removing it" : "removing it, or another body in each");
+  }
 }
 
 void refuse_duplicate_actuators(const std::vector<TorquePlan>& plans, Complaints& complaints) {
@@ -315,6 +344,7 @@ std::vector<TorquePlan> read_torques(const Value& value, const TorqueContext& co
     }
   }
   refuse_duplicate_actuators(plans, value.complaints());
+  refuse_repeated_surroundings(plans, context.linked, value.complaints());
   return plans;
 }
 

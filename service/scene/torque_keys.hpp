@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "service/scene/body_keys.hpp"
@@ -28,6 +29,9 @@ struct TorquePlan {
   std::optional<ActuatorPlan> actuator;
   bool drawn = false;
   std::size_t body = 0;  ///< of linked bodies: which one it acts on
+  std::string_view model{};  ///< its name, and where the file has it
+  Place place{};
+  std::string path{};
 };
 
 struct TorqueContext {

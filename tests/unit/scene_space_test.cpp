@@ -71,8 +71,21 @@ TEST(SceneSpace, what_pushes_goes_to_the_linked_body_that_it_names_or_to_each_th
   ASSERT_EQ(one.torques.size(), 1U);
   EXPECT_EQ(one.first_torque, (std::vector<std::size_t>{0, 0, 0, 1}));
   EXPECT_EQ(std::get<SolarPressure<double>>(one.torques[0]).facets->size(), 1U);
-  EXPECT_NE(refusal(linked_scene(model("aerodynamic", "body = \"bare\"\n")))
-                .find("an outside of the body that it acts on"),
+  EXPECT_NE(
+      refusal(linked_scene(model("aerodynamic", "body = \"bare\"\n")))
+          .find("an outside of the body that it acts on; try box = { size_m = [1.0, 1.0, 2.0] } "
+                "in that body's own block"),
+      std::string::npos);
+  EXPECT_NE(refusal(linked_scene(model("aerodynamic") +
+                                 model("aerodynamic", "body = \"link0\"\ndensity_factor = 2.0\n")))
+                .find("\"aerodynamic\" again on \"link0\""),
+            std::string::npos);
+  EXPECT_EQ(read(linked_scene(model("aerodynamic", "body = \"hub\"\n") +
+                              model("aerodynamic", "body = \"link0\"\n") + model("solar_pressure")))
+                .torques.size(),
+            4U);
+  EXPECT_NE(refusal(scene_of(kOrbit + model("gravity_gradient") + model("gravity_gradient")))
+                .find("\"gravity_gradient\" again, expected one of them"),
             std::string::npos);
   const std::string twice = refusal(linked_scene(model("aerodynamic", "density_factor = 0\n")));
   EXPECT_EQ(twice.find("density_factor"), twice.rfind("density_factor")) << "said once: " << twice;
