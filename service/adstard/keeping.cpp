@@ -103,11 +103,6 @@ void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprin
         plan.run->path().string()));
   }
   hot_ = what_was_in_memory(accept_loss);
-  if (!hot_ && !plan.run->ended_well()) {
-    spdlog::warn(
-        "what the run had in memory is gone (the machine was started anew?): beats and commands "
-        "since the last sync are lost, and nothing before");
-  }
   const run::Resumed resumed = run::resume(*plan.run, hot_ ? &**hot_ : nullptr, plan.scene,
                                            fingerprint, accept_loss, flight, verdicts);
   for (const std::string& note : resumed.notes) {
@@ -126,7 +121,13 @@ void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprin
 
 std::optional<run::HotJournalFile> Keeping::what_was_in_memory(bool accept_loss) const {
   try {
-    return run::HotJournalFile::open(run_);
+    std::optional<run::HotJournalFile> hot = run::HotJournalFile::open(run_);
+    if (!hot && !plan_.run->ended_well()) {
+      spdlog::warn(
+          "what the run had in memory is gone (the machine was started anew?): beats and commands "
+          "since the last sync are lost, and nothing before");
+    }
+    return hot;
   } catch (const run::RunError& error) {
     if (!accept_loss) {
       throw run::RunError(fmt::format(

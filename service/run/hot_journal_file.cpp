@@ -18,11 +18,18 @@ namespace {
 
 std::string name_of(std::uint64_t run) { return fmt::format("/adstar-{:016x}", run); }
 
-/// Null when it cannot be mapped.
+/// Null when it cannot be mapped; errno says why.
 void* map(int fd) {
   void* const memory = mmap(nullptr, sizeof(runtime::HotJournal), PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_POPULATE, fd, 0);
   return memory == MAP_FAILED ? nullptr : memory;
+}
+
+/// It is there, and may be whole: nothing is to be given up for it.
+[[noreturn]] void cannot_read(std::uint64_t run, int error) {
+  throw std::system_error(
+      error, std::generic_category(),
+      fmt::format("what this run had in memory, /dev/shm{}, cannot be read", name_of(run)));
 }
 
 }  // namespace
@@ -51,21 +58,28 @@ HotJournalFile HotJournalFile::create(std::uint64_t run) {
 std::optional<HotJournalFile> HotJournalFile::open(std::uint64_t run) {
   const int fd = shm_open(name_of(run).c_str(), O_RDWR, 0);
   if (fd < 0) {
-    return std::nullopt;
+    if (errno == ENOENT) {
+      return std::nullopt;
+    }
+    cannot_read(run, errno);
   }
   struct stat info {};
   const bool known = fstat(fd, &info) == 0;
   const bool whole = known && info.st_size == sizeof(runtime::HotJournal);
   void* const memory = whole ? map(fd) : nullptr;
+  const int error = errno;
   close(fd);
-  if (known && info.st_size == 0) {
+  if (!known || (whole && memory == nullptr)) {
+    cannot_read(run, error);
+  }
+  if (info.st_size == 0) {
     return std::nullopt;  // its daemon fell while it made it
   }
   const RunError of_another_version(
       fmt::format("/dev/shm{} holds what this run had in memory, and is of another version of "
                   "adstar",
                   name_of(run)));
-  if (memory == nullptr) {
+  if (!whole) {
     throw of_another_version;
   }
   HotJournalFile file(static_cast<runtime::HotJournal*>(memory));

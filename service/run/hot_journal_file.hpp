@@ -15,7 +15,7 @@ class HotJournalFile {
   /// Makes a new one, in place of one of that name. Throws std::system_error.
   static HotJournalFile create(std::uint64_t run);
   /// The one that a run left behind; nothing when there is none, or one in which nothing was written yet. Throws RunError
-  /// when it is of another version of adstar.
+  /// when it is of another version of adstar, std::system_error when it is there and cannot be read.
   static std::optional<HotJournalFile> open(std::uint64_t run);
   /// Forgets it: the run ended in good order.
   static void remove(std::uint64_t run) noexcept;

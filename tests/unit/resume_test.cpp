@@ -3,6 +3,7 @@
 #include <csignal>
 #include <random>
 #include <sys/resource.h>
+#include <system_error>
 
 #include "tests/support/killed_run.hpp"
 
@@ -216,6 +217,18 @@ TEST_F(KilledRun, does_not_take_memory_of_another_version_for_none) {
   EXPECT_FALSE(HotJournalFile::open(run_));
   HotJournalFile::create(run_)->run = run_ + 1;
   EXPECT_THROW(HotJournalFile::open(run_), RunError);
+}
+
+/// Out of file descriptors, say: it is there, and nothing is given up.
+TEST_F(KilledRun, does_not_take_memory_that_cannot_be_opened_for_none) {
+  HotJournalFile::create(run_);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  EXPECT_THROW(HotJournalFile::open(run_), std::system_error);
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_TRUE(HotJournalFile::open(run_));
 }
 
 TEST_F(KilledRun, without_its_memory_goes_on_from_what_the_disk_has) {
