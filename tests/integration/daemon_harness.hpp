@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
@@ -27,6 +28,8 @@
 #include "service/dds/participant.hpp"
 #include "service/dds/reader.hpp"
 #include "service/dds/writer.hpp"
+#include "service/run/hot_journal_file.hpp"
+#include "service/run/run_directory.hpp"
 #include "tests/integration/bridge_harness.hpp"
 
 namespace adstar::testing {
@@ -40,6 +43,11 @@ class TemporaryDirectory {
   }
   ~TemporaryDirectory() {
     std::error_code ignored;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_, ignored)) {
+      if (entry.path().filename() == "run.json") {
+        forget_in_memory(entry.path().parent_path());
+      }
+    }
     std::filesystem::remove_all(path_, ignored);
   }
   TemporaryDirectory(const TemporaryDirectory&) = delete;
@@ -52,6 +60,16 @@ class TemporaryDirectory {
   }
 
  private:
+  /// A run whose daemon was killed, and that nobody goes on with, would stay in memory.
+  static void forget_in_memory(const std::filesystem::path& run) {
+    try {
+      run::HotJournalFile::remove(
+          run::RunDirectory::open(run, run::RunDirectory::Use::look).facts().run);
+    } catch (const std::exception&) {
+      // It was no run yet.
+    }
+  }
+
   std::filesystem::path path_;
 };
 
