@@ -235,12 +235,12 @@ void Tick::account(const BeatTimes& times, std::int64_t period_ns) noexcept {
   record(Phase::hand_over, times.handed_over - times.stepped);
   const std::int64_t body_ns = times.handed_over - times.begun;
   report_.tick_body.record(body_ns);
-  if (period_ns == 0) {
+  if (pace_ != scene::Pace::clock) {
     return;
   }
   // With the end of its sleep, for a reading a beat is enough.
   const std::int64_t used_before_ns = std::exchange(used_ns_, used_by_this_thread_ns());
-  if (body_ns > period_ns) {
+  if (period_ns != 0 && body_ns > period_ns) {
     add(report_.overruns, 1);
     late_by_ = used_ns_ - used_before_ns > period_ns ? Cause::work : Cause::loss;
   }
