@@ -18,12 +18,12 @@ class LatestWords {
   static constexpr std::size_t kLineWords = 8, kAhead = 32;  // of cache lines
 
   /// The line is the reader's processor's, and comes from there: asked for before it is written, many are on their way
-  /// at once. Past the end too, where nothing is touched.
-  static void claim(std::uintptr_t line) noexcept {
+  /// at once.
+  static void claim(const std::uint64_t* line) noexcept {
 #if defined(__x86_64__)
-    asm volatile("prefetchw (%0)" : : "r"(line));
+    asm volatile("prefetchw %0" : : "m"(*line));
 #else
-    __builtin_prefetch(reinterpret_cast<const void*>(line), 1);
+    __builtin_prefetch(line, 1);
 #endif
   }
 
@@ -35,8 +35,9 @@ class LatestWords {
     sequence_[half].store(2 * count - 1, std::memory_order_relaxed);
     std::uint64_t* const target = storage.data() + half * value.size();
     for (std::size_t i = 0; i < value.size(); ++i) {
-      if (i % kLineWords == 0) {
-        claim(reinterpret_cast<std::uintptr_t>(target + i) + kAhead * kLineWords * sizeof *target);
+      const std::size_t ahead = i + kAhead * kLineWords;
+      if (i % kLineWords == 0 && ahead < value.size()) {
+        claim(target + ahead);
       }
       std::atomic_ref(target[i]).store(value[i], std::memory_order_release);
     }
