@@ -80,7 +80,7 @@ const char* refusal_text(ControlRefusal refusal) noexcept {
     case ControlRefusal::unknown_spacecraft:
       return "the service flies no spacecraft of that name; see `adstar list --all`";
     case ControlRefusal::bad_state:
-      return "attitude and rate must be finite, and the quaternion not zero";
+      return "the attitude, and of set_state the rate, must be finite, and the quaternion not zero";
     case ControlRefusal::bad_inertia:
       return "expected a positive definite tensor whose largest principal moment is at most the "
              "sum "
