@@ -65,8 +65,9 @@ for ((block = 1; block <= blocks; ++block)); do
   ours=$(adstard_block)
   echo "$theirs" >> "$scratch/theirs"
   echo "$ours" >> "$scratch/ours"
-  printf 'block %2d  lateness p99.9: cyclictest %8.1f us, adstard %8.1f us; %s; %s\n' "$block" "$theirs" "$ours" \
-    "$(grep -oE '[0-9]+ beats late .*' "$scratch/log")" "$(grep -oE '[0-9]+ page faults.*' "$scratch/log")"
+  printf 'block %2d  lateness p99.9: cyclictest %8.1f us, adstard %8.1f us; %s; %s; %s\n' "$block" "$theirs" "$ours" \
+    "$(grep -oE '[0-9]+ beats late .*' "$scratch/log")" "$(grep -oE 'the hand-over .*' "$scratch/log")" \
+    "$(grep -oE '[0-9]+ page faults.*' "$scratch/log")"
 done
 theirs=$(median < "$scratch/theirs") ours=$(median < "$scratch/ours")
 awk -v a="$theirs" -v b="$ours" 'BEGIN { printf "median over blocks: cyclictest %.1f us, adstard %.1f us, ratio %.2f (aim: at most 1.2)\n", a, b, b / a }'

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   using namespace adstar::runtime;
   constexpr std::int64_t kPeriod_ns = 1'000'000, kOff_ns = 400'000;
   const std::int64_t beats = 1000 * (argc > 1 ? std::atoll(argv[1]) : 600);
-  const std::int64_t spin_ns = 1000 * (argc > 2 ? std::atoll(argv[2]) : 300);
+  const std::int64_t spin_ns = 1000 * (argc > 2 ? std::atoll(argv[2]) : 100);
   cpu_set_t last;
   CPU_ZERO(&last);
   CPU_SET(static_cast<unsigned>(sysconf(_SC_NPROCESSORS_ONLN) - 1), &last);
