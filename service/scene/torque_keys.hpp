@@ -28,7 +28,7 @@ struct TorquePlan {
   std::function<Torque<double>(Draws&)> make;  ///< empty when the block was refused
   std::optional<ActuatorPlan> actuator;
   bool drawn = false;
-  std::size_t body = 0;  ///< of linked bodies: which one it acts on
+  std::size_t body = 0;      ///< of linked bodies: which one it acts on
   std::string_view model{};  ///< its name, and where the file has it
   Place place{};
   std::string path{};

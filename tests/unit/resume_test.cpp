@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "tests/support/killed_run.hpp"
 
 namespace adstar::run {
@@ -219,16 +221,12 @@ TEST_F(KilledRun, does_not_take_memory_of_another_version_for_none) {
   EXPECT_THROW(HotJournalFile::open(run_), RunError);
 }
 
-/// Out of file descriptors, say: it is there, and nothing is given up.
 TEST_F(KilledRun, does_not_take_memory_that_cannot_be_opened_for_none) {
-  HotJournalFile::create(run_);
-  rlimit before{};
-  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
-  const rlimit none{0, before.rlim_max};
-  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const fs::path there = fmt::format("/dev/shm/adstar-{:016x}", run_);
+  ASSERT_TRUE(fs::create_directory(there));  // which not even root opens to write
   EXPECT_THROW(HotJournalFile::open(run_), std::system_error);
-  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
-  EXPECT_TRUE(HotJournalFile::open(run_));
+  fs::remove(there);
+  EXPECT_FALSE(HotJournalFile::open(run_));
 }
 
 TEST_F(KilledRun, without_its_memory_goes_on_from_what_the_disk_has) {
