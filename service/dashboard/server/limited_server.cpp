@@ -83,14 +83,10 @@ class Connection final : public httplib::Stream {
     const auto wait = std::chrono::ceil<std::chrono::milliseconds>(patience);
     return poll(&looked, 1, static_cast<int>(std::max<std::int64_t>(wait.count(), 0))) > 0;
   }
-  /// What came while the connection waited for a thread is read, once, though its time is over.
+  /// What is there is read though its time is over: it came while the connection waited for a thread.
   bool may_read() const {
-    const bool has_read = filled_ > 0;
     while (!ending_) {
       const Clock::duration left = deadline_ - Clock::now();
-      if (left <= 0s && has_read) {
-        return false;
-      }
       if (is_ready(POLLIN, std::min<Clock::duration>(kGlance, left))) {
         return true;
       }

@@ -15,7 +15,7 @@ namespace adstar::dashboard {
 
 class LimitedServer final : public httplib::Server {
  public:
-  /// From its coming to the last byte of its request; what came while it waited for a thread is read once.
+  /// From its coming to the last byte of its request; what is there then is read all the same.
   static constexpr std::chrono::seconds kRequestPatience{2};
   /// For a client that takes nothing of its answer.
   static constexpr std::chrono::seconds kAnswerPatience{2};
@@ -23,8 +23,8 @@ class LimitedServer final : public httplib::Server {
   /// Once `ending` is true nothing more is read, and nothing waits for a client.
   LimitedServer(const std::atomic<bool>& ending, std::size_t threads);
 
-  /// Once it is bound: as many as the system allows may connect at once. Of the library's queue of 5 a browser whose
-  /// packet is dropped hears nothing for a second, then for two more.
+  /// Once it is bound: as many as the system allows may connect at once. With the queue of 5 that Debian's library is
+  /// compiled with, a browser whose packet is dropped hears nothing for a second, then for two more.
   void lengthen_queue() { ::listen(svr_sock_, SOMAXCONN); }
 
  private:
