@@ -41,6 +41,69 @@ def test_of_a_run(asks, asked, said):
         getattr(adstar.parse_scene(FREE), asks)(**asked)
 
 
+#: float() takes most of them.
+NO_NUMBERS_OF_NUMPY = [
+    (np.timedelta64(10, "ns"), r"numpy.timedelta64\(10,'ns'\) \(timedelta64\)"),
+    (np.timedelta64("NaT", "s"), r"numpy.timedelta64\('NaT','s'\) \(timedelta64\)"),
+    (np.datetime64("2026-01-01"), r"numpy.datetime64\('2026-01-01'\) \(datetime64\)"),
+    (np.datetime64(10, "ns"), r"numpy.datetim.* \(datetime64\)"),
+    (np.str_("10"), r"'10' \(str_\)"),
+    (np.bytes_(b"10"), r"b'10' \(bytes_\)"),
+    (np.void(b"1"), r"void\(.* \(void\)"),
+    (np.complex64(10), r"\(10\+0j\) \(complex64\)"),
+    (np.complex128(10), r"\(10\+0j\) \(complex128\)"),
+    (np.array("10"), r"array\('10', dtype='<U2'\) \(ndarray\)"),
+    (np.array(b"10"), r"array\(b'10', dtype='\|S2'\) \(ndarray\)"),
+    (np.array(10, dtype="m8[ns]"), r"array\(10, .* \(ndarray\)"),
+    (np.array("10", dtype=object), r"array\('10', dtype=object\) \(ndarray\)"),
+    (np.array(10.0, dtype=object), r"array\(10.0, dtype=object\) \(ndarray\)"),
+]
+
+
+@pytest.mark.parametrize(("given", "got"), NO_NUMBERS_OF_NUMPY)
+@pytest.mark.parametrize("name", ["duration_s", "every_s", "step_s"])
+def test_what_numpy_has_besides_numbers_is_no_time_of_a_run(name, given, got):
+    with pytest.raises(TypeError, match=f"^{name}: got {got}, expected seconds, a number; try 0.1$"):
+        adstar.parse_scene(FREE).propagate(**{"duration_s": 10, name: given})
+
+
+@pytest.mark.parametrize(("given", "got"), NO_NUMBERS_OF_NUMPY)
+def test_what_numpy_has_besides_numbers_is_no_time_of_a_step(given, got):
+    with pytest.raises(TypeError, match=f"^h_s: got {got}, expected seconds, a number; try 0.1$"):
+        adstar.Body(INERTIA).step(given)
+
+
+@pytest.mark.parametrize("given", [np.timedelta64(2, "ns"), np.str_("2"), np.float32(2), np.array(2, dtype=object)])
+def test_what_numpy_has_besides_integers_is_no_count(given):
+    with pytest.raises(TypeError, match="^threads: got .*, expected a whole number, 1 to 256; try 1$"):
+        adstar.parse_scene(FREE).propagate_all(1, threads=given)
+
+
+@pytest.mark.parametrize(
+    ("given", "got"),
+    [
+        (np.array(["0", "0", "1"]), r"array\(.* \(ndarray\)"),
+        (np.array([0, 0, 1], dtype="m8[ns]"), r"array\(.* \(ndarray\)"),
+        (np.array([0, 0, 1], dtype=complex), r"array\(.* \(ndarray\)"),
+        ([0, fractions.Fraction(1), "2"], r"'2' \(str\) at \[2\]"),
+        ([0, b"1", fractions.Fraction(2)], r"b'1' \(bytes\) at \[1\]"),
+        ([0.0, np.timedelta64(1, "ns"), 2], r"numpy.timedelta64\(1,'ns'\) \(timedelta64\) at \[1\]"),
+        (np.array([0, 1, np.complex64(2)], dtype=object), r"\(2\+0j\) \(complex64\) at \[2\]"),
+        ([None, 1, 2], r"None at \[0\]"),
+        (np.array("1", dtype=object), r"'1' \(str\)"),
+    ],
+)
+def test_every_one_of_some_numbers_must_be_one(given, got):
+    with pytest.raises(TypeError, match=f"^angular_velocity_body_rad_s: got {got}, expected numbers; try "):
+        adstar.Body(INERTIA, angular_velocity_body_rad_s=given)
+
+
+def test_of_a_table_of_objects_it_is_said_where():
+    torque = table(torque_n_m=np.array([[0, 0, "1"]], dtype=object))
+    with pytest.raises(TypeError, match=r"^torque_n_m: got '1' \(str\) at \[0, 2\], expected numbers; try "):
+        adstar.parse_scene(FREE).propagate(1, torque=torque)
+
+
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
@@ -149,7 +212,12 @@ def test_of_a_recording():
 
 
 @pytest.mark.parametrize(
-    "second", [1, True, np.int64(1), np.float32(1), np.array(1.0), fractions.Fraction(1), decimal.Decimal("1.0")]
+    "second",
+    [
+        *(1, True, fractions.Fraction(1), decimal.Decimal("1.0"), np.array(1.0), np.array(1, dtype=np.uint8)),
+        *(kind(1) for kind in (np.float16, np.float32, np.float64, np.longdouble, np.int64, np.uint8, np.bool_)),
+    ],
+    ids=lambda second: f"{type(second).__name__} {second}",
 )
 def test_whatever_is_a_number_is_one(second):
     assert adstar.parse_scene(FREE).propagate(second, second).time_s[-1] == 1
@@ -164,3 +232,5 @@ def test_whatever_is_numbers_is_some(rates):
 def test_a_number_beyond_any_double_is_out_of_range():
     with pytest.raises(ValueError, match="duration_s: got inf, expected seconds"):
         adstar.parse_scene(FREE).propagate(10**400)
+    with pytest.raises(ValueError, match=r"angular_velocity_body_rad_s: got inf at \[2\], expected finite numbers"):
+        adstar.Body(INERTIA, angular_velocity_body_rad_s=(0, 0, 10**400))

@@ -12,26 +12,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 Numbers = NDArray[Any]  #: integers or floats of any width
+REAL = "biuf"  #: NumPy's kinds of real numbers, and of truth
 
 
-def wrong_type(name: str, given: object, expected: str, example: str) -> TypeError:
+def wrong_type(name: str, given: object, expected: str, example: str, place: str = "") -> TypeError:
     shown = " ".join(reprlib.repr(given).split())
     got = "None" if given is None else f"{shown} ({type(given).__name__})"
-    return TypeError(f"{name}: got {got}, expected {expected}; try {example}")
+    return TypeError(f"{name}: got {got}{place}, expected {expected}; try {example}")
 
 
-def seconds(name: str, given: object) -> float:
-    """Of whatever is a number; float() would read text too."""
-    if isinstance(given, float):
-        return given
+def real(given: object) -> Optional[float]:
+    """None of what is no real number. float() would read text too, and whatever NumPy has: time spans in their own
+    unit, text, the real part of complex numbers."""
+    if isinstance(given, (np.generic, np.ndarray)) and given.dtype.kind not in REAL:
+        return None
     if isinstance(given, (SupportsFloat, SupportsIndex)):
         try:
             return float(given)
         except OverflowError:  # an int beyond any double: out of range, and said to be
             return math.inf
-        except TypeError:
+        except (TypeError, ValueError):
             pass
-    raise wrong_type(name, given, "seconds, a number", "0.1")
+    return None
+
+
+def seconds(name: str, given: object) -> float:
+    number = real(given)
+    if number is None:
+        raise wrong_type(name, given, "seconds, a number", "0.1")
+    return number
 
 
 def seconds_if(name: str, given: object) -> Optional[float]:
@@ -67,13 +76,24 @@ def numbers(name: str, given: object, example: str) -> Numbers:
     """Not of text or of complex numbers, though NumPy would make some of them."""
     try:
         array: Numbers = np.asarray(given)
-        if array.dtype.kind in "biuf":
-            return array
-        if array.dtype.kind == "O" and given is not None:
-            return array.astype(float)
-    except (TypeError, ValueError, OverflowError):
-        pass
-    raise wrong_type(name, given, "numbers", example)
+    except (TypeError, ValueError, OverflowError):  # rows of several lengths, for one
+        raise wrong_type(name, given, "numbers", example) from None
+    if array.dtype.kind == "O":
+        return _each_real(name, array, example)
+    if array.dtype.kind not in REAL:
+        raise wrong_type(name, given, "numbers", example)
+    return array
+
+
+def _each_real(name: str, objects: NDArray[np.object_], example: str) -> Numbers:
+    doubles = np.empty(objects.shape)
+    for place in np.ndindex(objects.shape):
+        number = real(objects[place])
+        if number is None:
+            where = f" at {list(place)}" if place else ""
+            raise wrong_type(name, objects[place], "numbers", example, where)
+        doubles[place] = number
+    return doubles
 
 
 def numbers_if(name: str, given: object, example: str) -> Optional[Numbers]:
