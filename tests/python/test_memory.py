@@ -45,6 +45,26 @@ def test_the_every_s_to_try_fits(monkeypatch):
     assert bytes_of({"sat1": scene.propagate(1000, every_s)}) < 7_500_000
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (FREE, r"spacecraft: got 1, for which even two rows take 336 B, .* the 335 B of .*; try more memory \(no every_s"),
+        (MIXED, "spacecraft: got 4, for which even two rows take .* free; try fewer spacecraft, or more memory"),
+    ],
+    ids=["one", "several"],
+)
+def test_where_two_rows_do_not_fit_no_every_s_is_named(text, said, monkeypatch):
+    monkeypatch.setattr("adstar.scene.available_bytes", lambda: 335)
+    with pytest.raises(MemoryError, match=f"^{said}"):
+        adstar.parse_scene(text).propagate_all(1000)
+
+
+def test_where_two_rows_fit_the_every_s_to_try_is_the_whole_run(monkeypatch):
+    monkeypatch.setattr("adstar.scene.available_bytes", lambda: 336)
+    with pytest.raises(MemoryError, match="^every_s: got 0.01, .* free; try 1000$"):
+        adstar.parse_scene(FREE).propagate_all(1000)
+
+
 def test_arrays_that_no_machine_holds_are_refused_at_once():
     said = r"every_s: got 0.01, for which 100,000,000,001 rows take 16800.0 GB, expected .*; try \d+"
     with pytest.raises(MemoryError, match=said):

@@ -129,7 +129,8 @@ class Scene:
         200 for each row of a table beside it. The GIL is released, and Ctrl-C ends it.
 
         ValueError: something asked for cannot be; it says what to ask for. TypeError: it is of another type.
-        MemoryError: the rows do not fit in the memory that is free; nothing was run, and it says which every_s does.
+        MemoryError: the rows do not fit in the memory that is free; nothing was run, and it says which every_s does,
+        or that none does.
         UnresolvedWarning: the scheme could not follow the motion.
         """
         name = self._one(spacecraft)

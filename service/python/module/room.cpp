@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -29,7 +30,7 @@ std::uint64_t every_that_fits(const propagation::Plan& plan, double bytes_an_ins
 
 }  // namespace
 
-void require_room(const propagation::Plan& plan, double bytes_an_instant,
+void require_room(const propagation::Plan& plan, std::size_t spacecraft, double bytes_an_instant,
                   const py::function& available_bytes) {
   /// Asking takes longer than such a run, and arrays are not all that a process needs.
   constexpr double kAlwaysThere = 16e6;
@@ -49,11 +50,20 @@ void require_room(const propagation::Plan& plan, double bytes_an_instant,
   const auto every_s = [&](std::uint64_t steps) {
     return report::seconds_text(static_cast<std::int64_t>(steps) * plan.step_ns);
   };
-  const std::string message = fmt::format(
-      "every_s: got {}, for which {} rows take {}, expected at most the {} of memory that are "
-      "free; try {}",
-      every_s(plan.every), report::counted(instants), size(bytes), size(available),
-      every_s(every_that_fits(plan, bytes_an_instant, available)));
+  std::string message;
+  if (2 * bytes_an_instant > available) {
+    message = fmt::format(
+        "spacecraft: got {}, for which even two rows take {}, expected at most the {} of memory "
+        "that are free; try {} (no every_s fits)",
+        report::counted(spacecraft), size(2 * bytes_an_instant), size(available),
+        spacecraft > 1 ? "fewer spacecraft, or more memory" : "more memory");
+  } else {
+    message = fmt::format(
+        "every_s: got {}, for which {} rows take {}, expected at most the {} of memory that are "
+        "free; try {}",
+        every_s(plan.every), report::counted(instants), size(bytes), size(available),
+        every_s(every_that_fits(plan, bytes_an_instant, available)));
+  }
   PyErr_SetString(PyExc_MemoryError, message.c_str());
   throw py::error_already_set();
 }

@@ -149,7 +149,7 @@ py::dict propagate(const ReadScene& whole, const std::vector<std::size_t>& chose
       bytes_an_instant += tables.emplace_back(table, scene, fleet).bytes_an_instant();
     }
   }
-  require_room(plan, bytes_an_instant, available_bytes);
+  require_room(plan, scene.spacecraft.size(), bytes_an_instant, available_bytes);
   const auto rows = static_cast<py::ssize_t>(propagation::rows_of(plan));
   for (SideArrays& table : tables) {
     table.allocate(rows);
