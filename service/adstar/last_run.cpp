@@ -15,6 +15,7 @@ void RunFinder::add(const Heard& sample) {
   const std::int64_t before_received_ns = std::exchange(received_ns_, sample.received_ns);
   const std::int64_t time_ns = sample.time_ns;
   if (number == 0) {
+    listened_since_ns_ = sample.received_ns;
     run_ = {0, 1, time_ns, time_ns};
     return;
   }
@@ -65,7 +66,8 @@ bool RunFinder::has_new_voice(const Detour& detour) const {
 /// back just then.
 std::optional<std::uint64_t> RunFinder::new_voice(const Detour& detour) const {
   const auto [earlier, later] = std::minmax(detour.before_received_ns, detour.received_ns);
-  return voices_->next(detour.service, last_voice_, earlier - kSecond_ns, later + 3 * kSecond_ns);
+  return voices_->next(detour.service, last_voice_, {earlier - kSecond_ns, later + 3 * kSecond_ns},
+                       listened_since_ns_);
 }
 
 RunSpan RunFinder::last_run() const {

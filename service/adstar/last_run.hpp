@@ -7,7 +7,8 @@
 // run when
 //   - it has two samples or more, in rising order,
 //   - it begins before half of that newest time (a run begins at 0; what is repeated is near the newest),
-//   - about when it began somebody was first heard as the service that says it (new_voices.hpp): each begins one run, and
+//   - about when it began somebody was first heard as the service that says it (new_voices.hpp): each begins one run, but
+//     not whoever was there when the first sample came, and
 //   - it goes on from there: it does not end with a leap, longer than all of it, back to the newer times.
 // Where the service's status was never heard, the third is that it begins at about time 0.
 
@@ -58,7 +59,7 @@ class RunFinder {
   std::uint64_t count_ = 0;
   std::uint64_t last_voice_ = 0;  ///< the number of the one that began this run
   RunSpan run_;
-  std::int64_t received_ns_ = 0;  ///< of the newest sample
+  std::int64_t listened_since_ns_ = 0, received_ns_ = 0;  ///< of the first and the newest sample
   std::optional<Detour> detour_;
 };
 

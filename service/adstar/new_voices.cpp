@@ -1,6 +1,7 @@
 #include "service/adstar/new_voices.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "service/dds/convert.hpp"
 
@@ -16,15 +17,20 @@ void NewVoices::hear(const adstar_ServiceStatus& status, std::int64_t received_n
 }
 
 std::optional<std::uint64_t> NewVoices::next(std::string_view service, std::uint64_t after,
-                                             std::int64_t from_ns, std::int64_t to_ns) const {
+                                             const Span& span,
+                                             std::int64_t listened_since_ns) const {
+  // A status is said once a second, and whoever begins to listen finds the topics one after the other.
+  constexpr std::int64_t kAtOnce_ns = 3'000'000'000;
   const auto of_service = begun_.find(service);
   if (of_service == begun_.end()) {
     return std::nullopt;
   }
   const auto& begun = of_service->second;
-  const auto found = std::find_if(begun.begin() + 1, begun.end(), [&](const Beginning& b) {
-    return b.number > after && from_ns <= b.received_ns && b.received_ns <= to_ns;
-  });
+  const bool was_there = std::abs(begun.front().received_ns - listened_since_ns) <= kAtOnce_ns;
+  const auto found =
+      std::find_if(begun.begin() + (was_there ? 1 : 0), begun.end(), [&](const Beginning& b) {
+        return b.number > after && span.from_ns <= b.received_ns && b.received_ns <= span.to_ns;
+      });
   return found == begun.end() ? std::nullopt : std::optional(found->number);
 }
 

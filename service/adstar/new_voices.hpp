@@ -21,10 +21,14 @@ class NewVoices {
 
   /// Whether anybody was first heard as that service.
   bool know(std::string_view service) const { return begun_.contains(service); }
-  /// The number, of all services and from 1 on, of the first after `after` who was first heard as `service` between
-  /// these times of reception. Not of the very first one: it may have flown long before.
-  std::optional<std::uint64_t> next(std::string_view service, std::uint64_t after,
-                                    std::int64_t from_ns, std::int64_t to_ns) const;
+  struct Span {
+    std::int64_t from_ns, to_ns;  ///< of reception
+  };
+  /// The number, of all services and from 1 on, of the first after `after` who was first heard as `service` in this span.
+  /// Not of the very first one as that service where it was heard within 3 s of `listened_since_ns`: it may have
+  /// flown long before.
+  std::optional<std::uint64_t> next(std::string_view service, std::uint64_t after, const Span& span,
+                                    std::int64_t listened_since_ns) const;
 
  private:
   struct Beginning {

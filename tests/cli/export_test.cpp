@@ -141,6 +141,34 @@ TEST(ExportAem, is_of_the_run_that_a_new_daemon_began_late) {
   EXPECT_NE(aem.err.find("500 samples before it are not"), std::string::npos) << aem.err;
 }
 
+/// A host whose daemon flies so many seconds of simulation from 0 on, and says its status once a second.
+void fly_host(MadeRecording& recording, std::uint64_t instance, std::uint64_t seconds,
+              bool says_status = true) {
+  constexpr std::uint64_t kSteps = 100;  // a second
+  for (std::uint64_t step = 0; step < seconds * kSteps; ++step) {
+    if (says_status && step % kSteps == kSteps / 2) {
+      recording.add(status_of(instance));
+    }
+    recording.fly(step, step);
+    recording.now_ns += kStep_ns - 2'000'000;
+  }
+}
+
+TEST(ExportAem, is_of_the_second_hosts_flight_where_it_began_after_the_firsts_had_ended) {
+  for (const bool first_says_status : {true, false}) {
+    MadeRecording recording;
+    fly_host(recording, 1, 7, first_says_status);
+    fly_host(recording, 2, 3);
+    recording.finish();
+    const Outcome aem = export_aem(recording);
+    ASSERT_EQ(aem.code, 0) << aem.err;
+    const Aem read = parse_aem(aem.out);
+    EXPECT_EQ(read.lines.size(), 300U) << first_says_status;
+    EXPECT_EQ(read.of("STOP_TIME"), "2026-01-01T00:00:02.990000000");
+    EXPECT_NE(aem.err.find("700 samples before it are not"), std::string::npos) << aem.err;
+  }
+}
+
 TEST(ExportAem, refuses_values_that_would_break_its_lines) {
   MadeRecording recording;
   recording.fly(1, 2);

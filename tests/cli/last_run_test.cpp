@@ -183,6 +183,20 @@ TEST(LastRun, does_not_begin_with_whoever_flew_when_the_recording_began) {
   EXPECT_EQ(taken_of(joined({flown, at_1_khz({1, 2})}), voices).times, flown);
 }
 
+TEST(LastRun, begins_with_whoever_is_the_first_that_was_heard_of_the_service_but_came_later) {
+  const Times flown = at_1_khz(rising(9'000, 16'000));
+  const Times anew = at_1_khz(rising(300, 700));
+  for (const auto& said : {std::vector<Voice>{{"fly", 2, 0, 7'001}},  // the one before: never heard
+                           std::vector<Voice>{{"other", 1, 0, 0}, {"fly", 2, 0, 7'001}}}) {
+    const Taken taken = taken_of(joined({flown, anew}), voices_of(said));
+    EXPECT_EQ(taken.times, anew);
+    EXPECT_EQ(taken.before, flown.size());
+  }
+  const NewVoices anew_at_once = voices_of({{"fly", 1, 0, 0}, {"fly", 2, 0, 1'001}});
+  EXPECT_EQ(taken_of(joined({at_1_khz(rising(9'000, 10'000)), anew}), anew_at_once).times, anew)
+      << "the second was not there before";
+}
+
 TEST(LastRun, begins_at_about_zero_where_nobody_knows_who_speaks) {
   const Times flown = at_1_khz(rising(0, 30'000));
   const Times words = at_1_khz({1330, 1331, 1332, 1332});
