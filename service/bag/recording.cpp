@@ -28,6 +28,27 @@ std::int64_t number_of(const fs::path& file) {
   return number;
 }
 
+/// False where a recorder was killed while it began the file: nothing is in it. Throws Error on a database of somebody
+/// else, which stays as it is.
+bool is_laid_out(const fs::path& file) {
+  std::error_code none;
+  if (fs::file_size(file, none) == 0) {
+    return false;
+  }
+  const Database database(file, Database::Mode::look);
+  Statement tables = database.prepare(
+      "SELECT COUNT(*), COUNT(CASE WHEN type = 'table' AND name IN ('topics', 'messages') THEN 1 "
+      "END) FROM sqlite_master");
+  tables.step();
+  if (tables.number(0) > 0 && tables.number(1) != 2) {
+    throw Error(fmt::format(
+        "'{}': there are no tables 'topics' and 'messages' in it, so it is no recording, and was "
+        "left as it is; give the directory that `adstar record` made, or move this file out of it",
+        file.string()));
+  }
+  return tables.number(1) == 2;
+}
+
 std::vector<fs::path> files_in(const fs::path& directory) {
   std::error_code error;
   std::vector<fs::path> files;
@@ -42,6 +63,7 @@ std::vector<fs::path> files_in(const fs::path& directory) {
         ".db3 file in it",
         directory.string(), error ? error.message() : std::string("there is no .db3 file in it")));
   }
+  std::erase_if(files, [](const fs::path& file) { return !is_laid_out(file); });
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return std::pair(number_of(a), a) < std::pair(number_of(b), b);
   });
@@ -63,13 +85,6 @@ std::optional<std::uint64_t> messages_told(const fs::path& directory) {
   return std::nullopt;
 }
 
-/// False where a recorder was killed while it began the file: nothing is in it.
-bool is_laid_out(const Database& database) {
-  Statement tables = database.prepare(
-      "SELECT COUNT(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', 'messages')");
-  return tables.step() && tables.number(0) == 2;
-}
-
 }  // namespace
 
 Recording::Recording(const fs::path& directory)
@@ -83,9 +98,6 @@ void Recording::for_each(const std::vector<std::string>& topics,
   watcher_(0);
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const Database database(files_[i], Database::Mode::open);
-    if (!is_laid_out(database)) {
-      continue;
-    }
     Statement last = database.prepare("SELECT MAX(id) FROM messages");
     last.step();
     const auto most = static_cast<double>(last.number(0));
@@ -117,9 +129,6 @@ Metadata Recording::count() const {
   Metadata metadata;
   for (const fs::path& path : files_) {
     const Database database(path, Database::Mode::open);
-    if (!is_laid_out(database)) {
-      continue;
-    }
     FileInfo file;
     file.name = path.filename().string();
     Statement span =
@@ -160,11 +169,9 @@ Recording::Ending Recording::ending() const {
   std::uint64_t there = 0;
   for (const fs::path& path : files_) {
     const Database database(path, Database::Mode::open);
-    if (is_laid_out(database)) {
-      Statement messages = database.prepare("SELECT COUNT(*) FROM messages");
-      messages.step();
-      there += static_cast<std::uint64_t>(messages.number(0));
-    }
+    Statement messages = database.prepare("SELECT COUNT(*) FROM messages");
+    messages.step();
+    there += static_cast<std::uint64_t>(messages.number(0));
   }
   return there == *told ? Ending::ended : Ending::cut_off;
 }

@@ -24,7 +24,7 @@ struct Message {
 
 class Recording {
  public:
-  /// Throws Error when there is no recording.
+  /// Throws Error when there is no recording, or a .db3 file of something else: that is left as it is.
   explicit Recording(const std::filesystem::path& directory);
 
   /// From now on for_each() tells which part of the files it has been through: 0 first, 1 last, and now and then
@@ -54,7 +54,7 @@ class Recording {
   void leave_logs() const;
 
   std::filesystem::path directory_;
-  std::vector<std::filesystem::path> files_;
+  std::vector<std::filesystem::path> files_;  ///< those that are laid out
   std::function<void(double)> watcher_ = [](double /*part*/) {};
 };
 

@@ -23,6 +23,21 @@ constexpr int kPatience_ms = 2000;
                           remedy));
 }
 
+/// The URI of a file that nobody writes to while it is open (sqlite.org/uri.html).
+std::string immutable_uri(const std::filesystem::path& file) {
+  std::string uri = "file://";
+  for (const char c : std::filesystem::absolute(file).string()) {
+    uri += c == '%' || c == '?' || c == '#' ? fmt::format("%{:02x}", c) : std::string(1, c);
+  }
+  return uri + "?immutable=1";
+}
+
+bool has_log(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(file.string() + "-wal", none);
+  return !none && size > 0;
+}
+
 }  // namespace
 
 void Statement::Finalize::operator()(sqlite3_stmt* statement) const noexcept {
@@ -111,15 +126,38 @@ Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
     throw Error(fmt::format("'{}' is there already; choose another name", file.string()));
   }
   sqlite3* made = nullptr;
+  // Without a log all is in the file: it need not be locked, nor get an empty log while it is open.
+  const bool is_immutable = mode == Mode::look && !has_log(file);
   // A file that nobody may write to is opened for reading alone.
-  const int code = sqlite3_open_v2(
-      file.c_str(), &made, SQLITE_OPEN_READWRITE | (mode == Mode::make ? SQLITE_OPEN_CREATE : 0),
-      nullptr);
+  const int code =
+      is_immutable
+          ? sqlite3_open_v2(immutable_uri(file).c_str(), &made,
+                            SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr)
+          : sqlite3_open_v2(file.c_str(), &made,
+                            SQLITE_OPEN_READWRITE | (mode == Mode::make ? SQLITE_OPEN_CREATE : 0),
+                            nullptr);
   database_.reset(made);
   if (code != SQLITE_OK) {
     fail(made, code, file);
   }
+  if (mode == Mode::look && !is_immutable) {
+    read_log_without_index();
+  }
   sqlite3_busy_timeout(made, kPatience_ms);
+}
+
+/// The log's index is a file beside it, but for who has the database alone. Where others have it open they have made that
+/// file, and it is theirs to take away.
+void Database::read_log_without_index() {
+  sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  if (sqlite3_db_readonly(database_.get(), "main") == 0) {
+    run("PRAGMA locking_mode=EXCLUSIVE");
+    const int code = sqlite3_exec(database_.get(), "SELECT COUNT(*) FROM sqlite_master", nullptr,
+                                  nullptr, nullptr);
+    if ((code & 0xff) == SQLITE_BUSY) {
+      run("PRAGMA locking_mode=NORMAL");
+    }
+  }
 }
 
 void Database::run(std::string_view sql) { prepare(sql).run(); }

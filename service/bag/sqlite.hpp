@@ -54,8 +54,12 @@ class Statement {
 
 class Database {
  public:
-  enum class Mode { make, open };
-  /// Throws Error; `make` refuses a file that is there already.
+  enum class Mode {
+    make,  ///< refuses a file that is there already
+    open,
+    look,  ///< for reading, and without a trace: no log is merged, made or taken away, whosever it is
+  };
+  /// Throws Error.
   Database(const std::filesystem::path& file, Mode mode);
 
   void run(std::string_view sql);
@@ -67,6 +71,8 @@ class Database {
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  void read_log_without_index();
+
   struct Close {
     void operator()(sqlite3* database) const noexcept;
   };

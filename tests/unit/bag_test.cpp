@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -349,6 +350,78 @@ TEST_F(Bags, nothing_is_written_over_and_nothing_else_is_taken_for_a_recording) 
   EXPECT_THROW(Recording(home_ / "empty"), Error);
   std::ofstream(home_ / "empty" / "x_0.db3") << "this is no database, whatever its name says of it";
   EXPECT_THROW(Recording(home_ / "empty").for_each({"/a"}, [](const Message&) {}), Error);
+}
+
+/// Names and contents of all that is there.
+std::map<std::string, std::string> files_in(const fs::path& directory) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    files[entry.path().filename()] = {std::istreambuf_iterator<char>(file), {}};
+  }
+  return files;
+}
+
+/// What is there is copied as a kill of its writer leaves it: without the log's index.
+void copy_without_index(const fs::path& from, const fs::path& to) {
+  fs::create_directory(to);
+  for (const auto& entry : fs::directory_iterator(from)) {
+    if (!entry.path().string().ends_with("-shm")) {
+      fs::copy(entry.path(), to / entry.path().filename());
+    }
+  }
+}
+
+std::string refusal_of(const fs::path& directory) {
+  try {
+    const Recording recording(directory);
+    recording.ending();
+    recording.mend();
+    return "taken for a recording";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST_F(Bags, a_database_of_somebody_else_is_refused_and_left_as_it_is) {
+  constexpr const char* kIsNone = "no tables 'topics' and 'messages'";
+  fs::create_directory(home_ / "open");
+  {
+    // The URI's own letters are no part of it.
+    Database theirs(home_ / "open" / "50%41?x#1.db3", Database::Mode::make);
+    theirs.run("PRAGMA journal_mode=WAL");
+    theirs.run("CREATE TABLE topics(mine TEXT)");
+    theirs.run("INSERT INTO topics VALUES ('kept')");
+    copy_without_index(home_ / "open", home_ / "killed");
+    const auto before = files_in(home_ / "open");
+    EXPECT_NE(refusal_of(home_ / "open").find(kIsNone), std::string::npos);
+    auto after = files_in(home_ / "open");
+    ASSERT_EQ(after.size(), 3U) << "it has a log and an index";
+    for (const auto& [name, content] : before) {
+      EXPECT_TRUE(name.ends_with("-shm") || after[name] == content) << name;
+    }
+    theirs.run("INSERT INTO topics VALUES ('and goes on')");
+  }
+  for (const auto& [directory, count] :
+       {std::pair(home_ / "open", 1U), std::pair(home_ / "killed", 2U)}) {
+    const auto before = files_in(directory);
+    ASSERT_EQ(before.size(), count) << directory;
+    EXPECT_NE(refusal_of(directory).find(kIsNone), std::string::npos) << refusal_of(directory);
+    EXPECT_EQ(refusal_of(directory).rfind("'" + (directory / "50%41?x#1.db3").string(), 0), 0U);
+    EXPECT_NE(refusal_of("/" + directory.string()).find(kIsNone), std::string::npos);
+    EXPECT_TRUE(files_in(directory) == before) << directory;
+  }
+}
+
+TEST_F(Bags, what_a_killed_recorder_left_is_known_by_its_log) {
+  RollingWriter bag = writer();
+  bag.add(0, 1, bytes(3, 1));
+  bag.commit();
+  copy_without_index(home_ / "bag", home_ / "killed");
+  ASSERT_TRUE(fs::exists(home_ / "killed" / "bag_0.db3-wal"));
+  const Recording recording(home_ / "killed");
+  EXPECT_EQ(recording.ending(), Recording::Ending::cut_off);
+  EXPECT_EQ(recording.count().messages(), 1U);
 }
 
 TEST_F(Bags, the_directories_above_a_recording_are_made_with_it) {
