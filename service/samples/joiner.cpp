@@ -14,6 +14,7 @@ using report::Row, report::kAttitude, report::kAngularVelocity, report::kMomentu
 /// Whoever can write to the domain could otherwise fill our memory with names.
 constexpr std::size_t kMostTracks = 1'100'000;
 constexpr std::size_t kMostLines = 4;
+constexpr std::size_t kMostHalved = 32;
 
 /// A line that got none of so many samples of its spacecraft gets no other half: they are no last words, but a new run.
 constexpr std::uint64_t kLeftAfter = 64;
@@ -42,31 +43,84 @@ Row* Joiner::place(const Sample& sample, Half half) {
   }
   Track& track = tracks_[name];
   ++track.samples;
-  Line* line = line_of(track, half, sample.step);
+  leave_lines(track);
+  Waiting* waiting = waiting_of(track, half, sample.step);
+  if (waiting == nullptr) {
+    return nullptr;
+  }
+  if (waiting->halves == 0) {
+    waiting->came = track.samples;
+  }
+  waiting->halves |= half;
+  waiting->row.spacecraft = name;
+  waiting->row.step = sample.step;
+  waiting->row.time_ns = sample.time_ns;
+  waiting->row.flags |= sample.flags;
+  return &waiting->row;
+}
+
+void Joiner::leave_lines(Track& track) {
+  for (Line& line : track.lines) {
+    if (track.samples - line.fed > kLeftAfter) {
+      give_out(track, line, left_, true);
+    }
+  }
+}
+
+/// Null when the line that it continues has given that step out. A half whose row went without it is put aside, and
+/// comes back when the other half is said anew.
+Joiner::Waiting* Joiner::waiting_of(Track& track, Half half, std::uint64_t step) {
+  Halved* const halved = halved_at(track, step);
+  Line* line = line_that_waits_for(track, half, step);
+  if (line == nullptr && halved != nullptr && (halved->halves & half) == 0) {
+    if (!halved->late) {
+      halved->late = std::make_unique<Waiting>();
+    }
+    return halved->late.get();
+  }
+  if (line == nullptr) {
+    line = line_of(track, half, step);
+  }
   if (line == nullptr) {
     return nullptr;
   }
-  line->newest[half] = sample.step;
+  std::uint64_t& newest = line->newest.try_emplace(half, step).first->second;
+  newest = std::max(newest, step);
   line->fed = track.samples;
-  Waiting& waiting = line->waiting[sample.step];
-  if (waiting.halves == 0) {
-    waiting.came = track.samples;
+  Waiting& waiting = line->waiting[step];
+  if (halved != nullptr && halved->late) {
+    if (waiting.halves == 0) {
+      waiting = std::move(*halved->late);
+    }
+    halved->late.reset();
   }
-  waiting.halves |= half;
-  waiting.row.spacecraft = name;
-  waiting.row.step = sample.step;
-  waiting.row.time_ns = sample.time_ns;
-  waiting.row.flags |= sample.flags;
-  return &waiting.row;
+  return &waiting;
+}
+
+Joiner::Halved* Joiner::halved_at(Track& track, std::uint64_t step) {
+  const auto found = std::find_if(track.halved.begin(), track.halved.end(),
+                                  [&](const Halved& row) { return row.step == step; });
+  if (found == track.halved.end()) {
+    return nullptr;
+  }
+  if (found->late && track.samples - found->late->came > kLeftAfter) {
+    found->late.reset();
+  }
+  return &*found;
+}
+
+Joiner::Line* Joiner::line_that_waits_for(Track& track, Half half, std::uint64_t step) {
+  const auto found = std::find_if(track.lines.begin(), track.lines.end(), [&](const Line& line) {
+    const auto waiting = line.waiting.find(step);
+    return waiting != line.waiting.end() && (waiting->second.halves & half) == 0;
+  });
+  return found == track.lines.end() ? nullptr : &*found;
 }
 
 /// Null when the line that it continues has given that step out.
 Joiner::Line* Joiner::line_of(Track& track, Half half, std::uint64_t step) {
   bool is_late = false;
   for (Line& line : track.lines) {
-    if (track.samples - line.fed > kLeftAfter) {
-      give_out(line, left_, true);
-    }
     const auto newest = line.newest.find(half);
     if (step < (newest == line.newest.end() ? line.first : newest->second)) {
       continue;
@@ -84,7 +138,7 @@ Joiner::Line& Joiner::new_line(Track& track, std::uint64_t first) {
     const auto longest_ago =
         std::min_element(track.lines.begin(), track.lines.end(),
                          [](const Line& a, const Line& b) { return a.fed < b.fed; });
-    give_out(*longest_ago, left_, true);
+    give_out(track, *longest_ago, left_, true);
     track.lines.erase(longest_ago);
   }
   track.lines.emplace_back().first = first;
@@ -141,7 +195,7 @@ std::vector<Row> Joiner::ready(bool everything) {
   std::swap(rows, left_);
   for (auto& [name, track] : tracks_) {
     for (Line* line : waiting_lines(track)) {
-      give_out(*line, rows, everything);
+      give_out(track, *line, rows, everything);
     }
   }
   rows.insert(rows.end(), std::make_move_iterator(fleet_rows_.begin()),
@@ -177,7 +231,7 @@ bool Joiner::is_overtaken(const Line& line) const {
                       [&](const auto& topic) { return topic.second > oldest; }));
 }
 
-void Joiner::give_out(Line& line, std::vector<Row>& rows, bool everything) const {
+void Joiner::give_out(Track& track, Line& line, std::vector<Row>& rows, bool everything) const {
   while (!line.waiting.empty()) {
     const auto oldest = line.waiting.begin();
     if (oldest->second.halves != kBoth && !everything && !is_overtaken(line)) {
@@ -185,8 +239,20 @@ void Joiner::give_out(Line& line, std::vector<Row>& rows, bool everything) const
     }
     line.begun = true;
     line.done = oldest->first;
+    if (oldest->second.halves != kBoth) {
+      remember_halved(track, oldest->first, oldest->second.halves);
+    }
     rows.push_back(std::move(oldest->second.row));
     line.waiting.erase(oldest);
+  }
+}
+
+void Joiner::remember_halved(Track& track, std::uint64_t step, unsigned halves) {
+  if (track.halved.size() < kMostHalved) {
+    track.halved.push_back({step, halves, nullptr});
+  } else {
+    track.halved[track.oldest_halved] = {step, halves, nullptr};
+    track.oldest_halved = (track.oldest_halved + 1) % kMostHalved;
   }
 }
 

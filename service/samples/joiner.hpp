@@ -4,11 +4,15 @@
 // A half waits for the other until something later of that spacecraft has come: each topic keeps
 // its order, but the two are taken one after the other, so that is judged at the end of a round.
 //
-// Samples that are older than what their topic had said, of whoever had hung, took over or began anew, are joined among
+// A half that comes after its row went without it is left out: its step has one row. It is kept for a
+// while, though: when the other half comes once more, it was the first word of a new run, and both are a row.
+//
+// Other samples that are older than what their topic had said, of whoever had hung, took over or began anew, are joined among
 // themselves: each goes to the first line of rising steps that it continues, and ends none of the others.
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <telemetry.h>
@@ -55,18 +59,31 @@ class Joiner {
     std::uint64_t done = 0;  ///< the last step given out, once begun
     std::uint64_t fed = 0;   ///< the track's samples, when it got its newest
   };
+  /// A row that went with one half.
+  struct Halved {
+    std::uint64_t step = 0;
+    unsigned halves = 0;
+    std::unique_ptr<Waiting> late;  ///< the other one, where it came since
+  };
   struct Track {
-    std::vector<Line> lines;  ///< none gets what one before it would take
+    std::vector<Line> lines;     ///< none gets what one before it would take, but for an other half
+    std::vector<Halved> halved;  ///< the last 32 of them, in a ring
+    std::size_t oldest_halved = 0;
     std::uint64_t samples = 0;
   };
 
   template <class Sample>
   report::Row* place(const Sample& sample, Half half);
+  void leave_lines(Track& track);
+  Waiting* waiting_of(Track& track, Half half, std::uint64_t step);
+  static Halved* halved_at(Track& track, std::uint64_t step);
+  static Line* line_that_waits_for(Track& track, Half half, std::uint64_t step);
   Line* line_of(Track& track, Half half, std::uint64_t step);
   Line& new_line(Track& track, std::uint64_t first);
   static std::vector<Line*> waiting_lines(Track& track);
   std::vector<report::Row> ready(bool everything);
-  void give_out(Line& line, std::vector<report::Row>& rows, bool everything) const;
+  void give_out(Track& track, Line& line, std::vector<report::Row>& rows, bool everything) const;
+  static void remember_halved(Track& track, std::uint64_t step, unsigned halves);
   bool is_overtaken(const Line& line) const;
 
   Patience patience_;

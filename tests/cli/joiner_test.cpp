@@ -1,5 +1,8 @@
 #include "service/samples/joiner.hpp"
 
+#include <algorithm>
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "service/dds/convert.hpp"
@@ -196,6 +199,119 @@ TEST(Joiner, with_patience_waits_for_halves_that_stand_far_apart) {
   joiner.add(attitude(4));
   EXPECT_EQ(described(joiner.end_round()), "");
   EXPECT_EQ(described(joiner.rest()), "sat1@4:attitude");
+}
+
+/// Halves of a stream, said in turn: attitude and momentum of each step, but for those said apart.
+class Stream {
+ public:
+  Stream(Joiner::Patience patience, std::uint64_t steps_a_round)
+      : joiner_(patience), steps_a_round_(steps_a_round) {}
+
+  template <class Sample>
+  void say(const Sample& sample) {
+    joiner_.add(sample);
+  }
+  void fly(std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t step = first; step <= last; ++step) {
+      say(momentum(step));
+      say(attitude(step));
+      if (step % steps_a_round_ == 0) {
+        keep(joiner_.end_round());
+      }
+    }
+  }
+  /// All rows of the end, by step: which halves each had.
+  const std::multimap<std::uint64_t, std::string>& end() {
+    keep(joiner_.rest());
+    return rows_;
+  }
+
+ private:
+  void keep(const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+      rows_.emplace(row.step, described({row}));
+    }
+  }
+
+  Joiner joiner_;
+  std::uint64_t steps_a_round_;
+  std::multimap<std::uint64_t, std::string> rows_;
+};
+
+std::vector<Stream> streams() {
+  std::vector<Stream> streams;
+  for (const std::uint64_t steps_a_round : {1U, 512U}) {
+    streams.emplace_back(Joiner::Patience::rounds, steps_a_round);
+    streams.emplace_back(Joiner::Patience::both_topics, steps_a_round);
+  }
+  return streams;
+}
+
+TEST(Joiner, the_halves_of_a_step_are_one_row_though_one_of_them_comes_late_and_out_of_order) {
+  for (const std::uint64_t last : {13U, 14U, 40U, 100U, 5000U}) {
+    for (const bool momentum_is_late : {true, false}) {
+      for (Stream& stream : streams()) {
+        stream.fly(1, 9);
+        for (const std::uint64_t step : {10U, 11U, 12U}) {
+          momentum_is_late ? stream.say(attitude(step)) : stream.say(momentum(step));
+        }
+        stream.fly(13, last);
+        for (const std::uint64_t step : {11U, 10U, 12U}) {
+          momentum_is_late ? stream.say(momentum(step)) : stream.say(attitude(step));
+        }
+        stream.fly(last + 1, last + 100);
+        const auto& rows = stream.end();
+        EXPECT_EQ(rows.size(), last + 100) << last;
+        for (std::uint64_t step = 1; step <= last + 100; ++step) {
+          ASSERT_EQ(rows.count(step), 1U) << step;
+          EXPECT_TRUE((step >= 10 && step <= 12) || rows.find(step)->second.ends_with("both"))
+              << rows.find(step)->second;
+        }
+      }
+    }
+  }
+}
+
+TEST(Joiner, a_late_half_that_another_line_would_take_tears_none_of_its_rows) {
+  for (Stream& stream : streams()) {
+    stream.say(attitude(1000));
+    stream.fly(1, 80);
+    stream.say(momentum(1000));
+    stream.fly(81, 200);
+    const auto& rows = stream.end();
+    EXPECT_EQ(rows.size(), 201U);
+    for (std::uint64_t step = 1; step <= 200; ++step) {
+      ASSERT_EQ(rows.count(step), 1U) << step;
+      EXPECT_TRUE(rows.find(step)->second.ends_with("both")) << rows.find(step)->second;
+    }
+    EXPECT_EQ(rows.count(1000), 1U);
+  }
+}
+
+TEST(Joiner, a_run_that_begins_anew_has_both_halves_of_a_step_of_which_the_one_before_had_one) {
+  for (const bool momentum_first : {true, false}) {
+    for (Stream& stream : streams()) {
+      stream.say(attitude(0));
+      stream.fly(1, 600);
+      if (momentum_first) {
+        stream.say(momentum(0));
+        stream.say(attitude(0));
+      } else {
+        stream.say(attitude(0));
+        stream.say(momentum(0));
+      }
+      stream.fly(1, 100);
+      const auto& rows = stream.end();
+      EXPECT_EQ(rows.size(), 702U);
+      const auto [first, second] = rows.equal_range(0);
+      EXPECT_EQ(
+          std::count_if(first, second, [](const auto& row) { return row.second == "sat1@0:both"; }),
+          1);
+      for (std::uint64_t step = 1; step <= 100; ++step) {
+        EXPECT_EQ(rows.count(step), 2U) << step;
+      }
+    }
+  }
 }
 
 TEST(Joiner, fleet_samples_speak_only_for_spacecraft_without_topics_of_their_own) {
