@@ -1,7 +1,10 @@
 #include "service/adstar/output.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <fcntl.h>
+#include <poll.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -9,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "service/adstar/failure.hpp"
+#include "service/adstar/stop_signal.hpp"
 
 namespace adstar::cli {
 namespace {
@@ -55,9 +59,29 @@ Output::~Output() {
   }
 }
 
+/// Whoever wants us to stop does not wait for a reader who stands still.
+void Output::wait_for_room() const {
+  constexpr int kPatience_ms = 1000;  // a reader who is merely slow gets the last of it
+  pollfd output{fd_, POLLOUT, 0};
+  for (int ready = 0; ready == 0;) {
+    ready = poll(&output, 1, kPatience_ms);
+    if (ready == 0 && stop_requested()) {
+      throw Failure(kFailed, fmt::format("interrupted; {} takes no more, and the rest is not there",
+                                         printed_name()));
+    }
+    if (ready < 0 && errno == EINTR) {
+      ready = 0;
+    }
+  }
+}
+
 void Output::flush() {
+  // To a file of our own at once; so much goes into a pipe without waiting, where there is room (pipe(7)).
+  const std::size_t at_once = temporary_.empty() ? PIPE_BUF : buffer_.size();
   for (std::size_t written = 0; written < buffer_.size();) {
-    const ssize_t n = write(fd_, buffer_.data() + written, buffer_.size() - written);
+    wait_for_room();
+    const ssize_t n =
+        write(fd_, buffer_.data() + written, std::min(at_once, buffer_.size() - written));
     if (n < 0 && errno == EINTR) {
       continue;
     }
@@ -83,14 +107,17 @@ void Output::commit() {
   }
 }
 
+std::string Output::printed_name() const {
+  return name_.empty() ? "standard output" : "'" + name_.string() + "'";
+}
+
 void Output::fail(int error, std::string_view doing) const {
   if (error == EPIPE) {
     throw ReaderGone{};
   }
-  throw Failure(
-      kFailed,
-      fmt::format("cannot {} {}: {}; nothing was kept, make room and run it again", doing,
-                  name_.empty() ? "standard output" : "'" + name_.string() + "'", reason(error)));
+  throw Failure(kFailed,
+                fmt::format("cannot {} {}: {}; nothing was kept, make room and run it again", doing,
+                            printed_name(), reason(error)));
 }
 
 }  // namespace adstar::cli

@@ -29,7 +29,7 @@ class Output {
       flush();
     }
   }
-  /// Throws ReaderGone or Failure.
+  /// Throws ReaderGone or Failure; that, too, when a stop is requested and the reader has taken nothing for a second.
   void flush();
   /// Flushes, and gives a file its name.
   void commit();
@@ -39,6 +39,8 @@ class Output {
 
   Output(int fd, std::filesystem::path name, std::filesystem::path temporary)
       : fd_(fd), name_(std::move(name)), temporary_(std::move(temporary)) {}
+  void wait_for_room() const;
+  std::string printed_name() const;
   [[noreturn]] void fail(int error, std::string_view doing) const;
 
   int fd_;

@@ -1,6 +1,9 @@
 // Recordings that were made up, exported: what a daemon says twice, late, or anew.
 
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -195,6 +198,32 @@ TEST(Export, to_csv_refuses_what_only_an_aem_has) {
     const Outcome csv = client({"export", recording.directory(), "--to", "csv", option, "x"});
     EXPECT_EQ(csv.code, 2) << option;
     EXPECT_NE(csv.err.find(std::string(option) + ": "), std::string::npos) << csv.err;
+  }
+}
+
+TEST(Export, ends_at_ctrl_c_though_the_reader_of_its_pipe_stands_still) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    MadeRecording recording;
+    recording.fly(1, 1'500);
+    recording.finish();
+    const std::string pipe = recording.out("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDWR | O_CLOEXEC);  // which never reads
+    ASSERT_GE(fcntl(reader, F_SETPIPE_SZ, 4096), 4096);
+    Process process({"bash", "-c", "exec \"$0\" export \"$1\" --to csv > \"$2\"", ADSTAR_CLI,
+                     recording.directory(), pipe});
+    pollfd room{reader, POLLOUT, 0};
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (poll(&room, 1, 0) == 1 && std::chrono::steady_clock::now() < until) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(poll(&room, 1, 0), 0) << "the pipe is full; " << process.err();
+    process.send(signal);
+    EXPECT_EQ(process.wait(), 1);
+    EXPECT_EQ(
+        process.err(),
+        "adstar export: interrupted; standard output takes no more, and the rest is not there\n");
+    close(reader);
   }
 }
 
