@@ -85,6 +85,27 @@ std::optional<std::uint64_t> messages_told(const fs::path& directory) {
   return std::nullopt;
 }
 
+/// Calls read(first, last) for one stretch of rows after the other, and after each tells which part of the file has been read:
+/// whoever wants few of the rows is told, too, and does not pass over all others at once.
+template <class Read, class Tell>
+void for_each_stretch(const Database& database, const Read& read, const Tell& tell) {
+  constexpr std::int64_t kRows = 4096;
+  Statement last = database.prepare("SELECT id FROM messages ORDER BY id DESC LIMIT 1");
+  const std::int64_t last_row = last.step() ? last.number(0) : 0;
+  for (std::int64_t read_to = 0; read_to < last_row;) {
+    // Rows may be missing, and those that are there need not be close to each other.
+    Statement next = database.prepare(
+        fmt::format("SELECT id FROM messages WHERE id > {} ORDER BY id LIMIT 1", read_to));
+    if (!next.step()) {
+      return;  // somebody took the last ones away
+    }
+    const std::int64_t first_row = next.number(0);
+    read_to = last_row - first_row < kRows ? last_row : first_row + kRows - 1;
+    read(first_row, read_to);
+    tell(static_cast<double>(read_to) / static_cast<double>(last_row));
+  }
+}
+
 }  // namespace
 
 Recording::Recording(const fs::path& directory)
@@ -92,15 +113,9 @@ Recording::Recording(const fs::path& directory)
 
 void Recording::for_each(const std::vector<std::string>& topics,
                          const std::function<void(const Message&)>& use) const {
-  constexpr std::uint64_t kBetweenLooks = 4096;  // rows
-  const auto share = 1 / static_cast<double>(files_.size());
-  std::uint64_t rows_read = 0;
   watcher_(0);
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const Database database(files_[i], Database::Mode::open);
-    Statement last = database.prepare("SELECT MAX(id) FROM messages");
-    last.step();
-    const auto most = static_cast<double>(last.number(0));
     std::map<std::int64_t, std::string> names;
     std::string wanted;
     Statement rows = database.prepare("SELECT id, name FROM topics");
@@ -110,17 +125,21 @@ void Recording::for_each(const std::vector<std::string>& topics,
         wanted += (wanted.empty() ? "" : ",") + std::to_string(rows.number(0));
       }
     }
-    Statement messages = database.prepare(
-        fmt::format("SELECT topic_id, timestamp, data, id FROM messages WHERE topic_id IN ({}) "
-                    "ORDER BY id",
-                    wanted));
-    while (messages.step()) {
-      use({names.at(messages.number(0)), messages.number(1), messages.bytes(2)});
-      if (++rows_read % kBetweenLooks == 0) {
-        const double of_file = static_cast<double>(messages.number(3)) / most;
-        watcher_(share * (static_cast<double>(i) + std::min(of_file, 1.0)));
+    const auto read = [&](std::int64_t first_row, std::int64_t last_row) {
+      Statement messages = database.prepare(
+          fmt::format("SELECT topic_id, timestamp, data FROM messages WHERE id BETWEEN {} AND {} "
+                      "AND topic_id IN ({}) ORDER BY id",
+                      first_row, last_row, wanted));
+      while (messages.step()) {
+        use({names.at(messages.number(0)), messages.number(1), messages.bytes(2)});
       }
-    }
+    };
+    for_each_stretch(database, read, [&](double of_file) {
+      const double part = (static_cast<double>(i) + of_file) / static_cast<double>(files_.size());
+      if (part < 1) {
+        watcher_(part);
+      }
+    });
   }
   watcher_(1);
 }
