@@ -2,6 +2,7 @@
 // The fleet's state at one step, copied by the tick and read at leisure by another thread: for the
 // state's hash and for checkpoints.
 
+#include <algorithm>
 #include <atomic>
 #include <compare>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "adstar/bodies/rigid_body.hpp"
+#include "service/runtime/cache_line.hpp"
 #include "service/runtime/fleet.hpp"
 #include "service/runtime/model_memory.hpp"
 
@@ -111,19 +113,49 @@ struct Instant {
 };
 
 /// One snapshot at a time: the writer leaves out what the reader has no time for.
+///
+/// What the reader has is its processor's: each line of it costs the writer much more than a line of its own. A large
+/// fleet is taken in one step, and handed over in parts.
 class FleetSnapshot {
  public:
-  explicit FleetSnapshot(const Fleet& fleet) : state_(blank_state(fleet.vehicles())) {}
+  explicit FleetSnapshot(const Fleet& fleet)
+      : taken_(blank_state(fleet.vehicles())), state_(taken_) {}
+
+  /// Of a whole one.
+  std::size_t words() const noexcept {
+    return taken_.vehicles.size() * (sizeof(VehicleState) / 8) +
+           taken_.wheel_momenta.size() * (sizeof(Sum<double>) / 8) + taken_.memory.size();
+  }
+
+  /// The tick's, in the beats before take(): one of the parts of what it writes to.
+  void prepare(std::size_t part, std::size_t parts) const noexcept {
+    bring_near(taken_.vehicles, part, parts);
+    bring_near(taken_.wheel_momenta, part, parts);
+    bring_near(taken_.memory, part, parts);
+  }
 
   /// The tick's. False when the last one is still being read.
-  bool offer(const std::vector<Vehicle>& vehicles, Instant at) noexcept {
+  bool take(const std::vector<Vehicle>& vehicles, Instant at, std::size_t parts) noexcept {
     if (full_.load(std::memory_order_acquire)) {
       return false;
     }
-    copy_state(vehicles, state_);
+    copy_state(vehicles, taken_);
     at_ = at;
-    full_.store(true, std::memory_order_release);
+    part_ = 0;
+    parts_ = parts;
     return true;
+  }
+
+  /// The tick's: at most so many of the parts that are left.
+  void hand_over(std::size_t parts) noexcept {
+    for (; part_ < parts_ && parts > 0; --parts) {
+      copy_part(taken_.vehicles, state_.vehicles);
+      copy_part(taken_.wheel_momenta, state_.wheel_momenta);
+      copy_part(taken_.memory, state_.memory);
+      if (++part_ == parts_) {
+        full_.store(true, std::memory_order_release);
+      }
+    }
   }
 
   /// The reader's: whether there is one; then the rest may be read until done().
@@ -133,7 +165,15 @@ class FleetSnapshot {
   void done() noexcept { full_.store(false, std::memory_order_release); }
 
  private:
-  FleetState state_;
+  template <class Value>
+  void copy_part(const std::vector<Value>& from, std::vector<Value>& to) const noexcept {
+    const std::size_t first = from.size() * part_ / parts_;
+    const std::size_t last = from.size() * (part_ + 1) / parts_;
+    std::copy(from.data() + first, from.data() + last, to.data() + first);
+  }
+
+  FleetState taken_, state_;
+  std::size_t part_ = 0, parts_ = 0;
   Instant at_;
   std::atomic<bool> full_{false};
 };

@@ -11,37 +11,45 @@
 #include <cstring>
 #include <span>
 
+#include "service/runtime/cache_line.hpp"
+
 namespace adstar::runtime {
 
 /// The words of both buffers lie outside, so that the size can be chosen at run time.
 class LatestWords {
-  static constexpr std::size_t kLineWords = 8, kAhead = 32;  // of cache lines
-
-  /// The line is the reader's processor's, and comes from there: asked for before it is written, many are on their way
-  /// at once.
-  static void claim(const std::uint64_t* line) noexcept {
-#if defined(__x86_64__)
-    asm volatile("prefetchw %0" : : "m"(*line));
-#else
-    __builtin_prefetch(line, 1);
-#endif
-  }
+  static constexpr std::size_t kLineWords = kLineBytes / 8, kAhead = 32;  // of lines
 
  public:
-  /// Writer. `storage` holds 2 * value.size() words.
+  /// Writer, a value at once. `storage` holds 2 * value.size() words.
   void write(std::span<std::uint64_t> storage, std::span<const std::uint64_t> value) noexcept {
-    const std::uint64_t count = count_.load(std::memory_order_relaxed) + 1;
-    const std::size_t half = count & 1;
-    sequence_[half].store(2 * count - 1, std::memory_order_relaxed);
-    std::uint64_t* const target = storage.data() + half * value.size();
-    for (std::size_t i = 0; i < value.size(); ++i) {
+    begin();
+    put(storage, value, 0, value.size());
+    end();
+  }
+
+  /// Writer, a value in parts: begin(), put() of every word, end(). Until then readers have the one before; one that
+  /// never ends is nowhere.
+  void begin() noexcept {
+    const std::uint64_t count = next();
+    sequence_[count & 1].store(2 * count - 1, std::memory_order_relaxed);
+  }
+
+  /// Words [first, last) of `value`, which is given whole.
+  void put(std::span<std::uint64_t> storage, std::span<const std::uint64_t> value,
+           std::size_t first, std::size_t last) noexcept {
+    std::uint64_t* const target = storage.data() + (next() & 1) * value.size();
+    for (std::size_t i = first; i < last; ++i) {
       const std::size_t ahead = i + kAhead * kLineWords;
-      if (i % kLineWords == 0 && ahead < value.size()) {
+      if (i % kLineWords == 0 && ahead < last) {
         claim(target + ahead);
       }
       std::atomic_ref(target[i]).store(value[i], std::memory_order_release);
     }
-    sequence_[half].store(2 * count, std::memory_order_release);
+  }
+
+  void end() noexcept {
+    const std::uint64_t count = next();
+    sequence_[count & 1].store(2 * count, std::memory_order_release);
     count_.store(count, std::memory_order_release);
   }
 
@@ -68,6 +76,9 @@ class LatestWords {
   }
 
  private:
+  /// Which value is being written.
+  std::uint64_t next() const noexcept { return count_.load(std::memory_order_relaxed) + 1; }
+
   alignas(64) std::atomic<std::uint64_t> count_{0};
   std::atomic<std::uint64_t> sequence_[2]{};
 };

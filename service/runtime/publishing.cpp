@@ -23,7 +23,7 @@ std::uint32_t Tick::topics_at(std::uint64_t step, bool everything) const noexcep
          (due_at(step, telemetry_.momentum_every, everything) ? kTopicMomentum : 0U);
 }
 
-void Tick::publish(std::uint64_t step, bool everything) noexcept {
+void Tick::publish(std::uint64_t step, bool everything, bool fleet_at_once) noexcept {
   const std::uint32_t topics = topics_at(step, everything);
   const bool fleet = due_at(step, telemetry_.fleet_every, everything);
   if (topics != 0) {
@@ -52,13 +52,20 @@ void Tick::publish(std::uint64_t step, bool everything) noexcept {
       add(report_.telemetry_lost, 1);
     }
   }
+  bool fleet_is_there = hand_over_fleet(1);
   if (fleet) {
-    write_fleet(step, 0);
+    sample_fleet(step, 0);
+    if (fleet_at_once || fleet_parts_ == 1) {
+      fleet_is_there = hand_over_fleet(kAll);
+    }
+  } else if (fleet_parts_ > 1 && beats_left(step, telemetry_.fleet_every) <= fleet_parts_) {
+    bring_near(fleet_words_, fleet_parts_ - beats_left(step, telemetry_.fleet_every), fleet_parts_);
   }
   const std::size_t verdicts = segment_->verdicts.size();
   raise(report_.most_verdicts, verdicts);
   raise(report_.most_telemetry, segment_->telemetry.size());
-  if (topics != 0 || fleet || wheels || pointing || linked || verdicts > 0 || answers_wait()) {
+  if (topics != 0 || fleet_is_there || wheels || pointing || linked || verdicts > 0 ||
+      answers_wait()) {
     wake_bridge(*segment_);
   }
 }
@@ -142,7 +149,8 @@ bool Tick::push_pointing(std::uint32_t spacecraft, std::uint32_t flags,
   return segment_->pointing.push(record);
 }
 
-void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
+void Tick::sample_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
+  hand_over_fleet(kAll);  // the one before, if some of it is left
   const FleetHeader header{step, static_cast<std::int64_t>(step) * step_ns_,
                            fleet_.vehicles().size()};
   std::uint64_t* word = fleet_words_.data();
@@ -162,7 +170,31 @@ void Tick::write_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
     worst = worse(worst, momentum_residual_relative(vehicle));
   }
   report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
-  segment_->fleet.write(segment_.fleet_storage(), fleet_words_);
+  segment_->fleet.begin();
+  fleet_part_ = 0;
+}
+
+/// At most so many parts of what was sampled. True with the last one.
+bool Tick::hand_over_fleet(std::size_t parts) noexcept {
+  const std::size_t before = fleet_part_;
+  for (; fleet_part_ < fleet_parts_ && parts > 0; --parts, ++fleet_part_) {
+    segment_->fleet.put(segment_.fleet_storage(), fleet_words_,
+                        fleet_words_.size() * fleet_part_ / fleet_parts_,
+                        fleet_words_.size() * (fleet_part_ + 1) / fleet_parts_);
+  }
+  const bool ended = before < fleet_parts_ && fleet_part_ == fleet_parts_;
+  if (ended) {
+    segment_->fleet.end();
+  }
+  return ended;
+}
+
+/// The clock is not to go on.
+void Tick::hand_over_rest() noexcept {
+  snapshot_.hand_over(kAll);
+  if (hand_over_fleet(kAll)) {
+    wake_bridge(*segment_);
+  }
 }
 
 void Tick::publish_final(int patience_ms) {
@@ -197,7 +229,8 @@ void Tick::publish_final(int patience_ms) {
     }
   }
   if (telemetry_.fleet_every != 0) {
-    write_fleet(step, kFlagFinal);
+    sample_fleet(step, kFlagFinal);
+    hand_over_fleet(kAll);
   }
   tell_standby(true);
   wake_bridge(*segment_);

@@ -27,6 +27,7 @@ void Tick::stand(const std::atomic<bool>& stop) noexcept {
   constexpr int kLook_ms = 10;  // for `stop`, and for what a bridge pushed as it died
   const bool waits = pace_ == scene::Pace::lockstep && !halted();
   report_.waiting.store(waits ? 1 : 0, std::memory_order_relaxed);
+  hand_over_rest();
   while (!stop.load(std::memory_order_relaxed) && stands()) {
     add(report_.turns, 1);
     const std::uint32_t seen = segment_->push_count.load(std::memory_order_seq_cst);
@@ -36,7 +37,7 @@ void Tick::stand(const std::atomic<bool>& stop) noexcept {
     publish_counters();
     if (segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0 || !told_) {
       told_ = true;
-      publish(step(), true);
+      publish(step(), true, true);
     } else if (segment_->verdicts.size() > 0 || answers_wait()) {
       wake_bridge(*segment_);
     }
@@ -121,6 +122,7 @@ void Tick::follow(ControlAction action) noexcept {
       report_.paused.store(0, std::memory_order_relaxed);
       break;
     case ControlAction::reset:
+      hand_over_rest();
       step_requests_.interrupt(face());
       gate_.reset(now());
       report_.step.store(0, std::memory_order_relaxed);

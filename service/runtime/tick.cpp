@@ -1,6 +1,7 @@
 #include "service/runtime/tick.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,6 +13,18 @@ namespace {
 /// Whole steps in a second of simulation time, at least one.
 std::uint64_t snapshot_every(std::int64_t step_ns) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(1, kSecond / step_ns));
+}
+
+/// In how many beats, at most in `most`, so many words are handed over to another thread. In one, where no beat is due at
+/// a time. (decisions/0024-hand-over-in-parts.md)
+std::size_t parts_of(const scene::Scene& scene, std::size_t words, std::uint64_t most) {
+  constexpr double kWordsPerSecond = 2'000'000;  // 16 kB in a beat of 1 ms
+  if (scene.simulation.pace != scene::Pace::clock) {
+    return 1;
+  }
+  const double beat_s = seconds<double>(scene.simulation.step_ns) / scene.simulation.rate;
+  const double beats = std::ceil(static_cast<double>(words) / (kWordsPerSecond * beat_s));
+  return static_cast<std::size_t>(std::clamp(beats, 1.0, std::max(static_cast<double>(most), 1.0)));
 }
 
 }  // namespace
@@ -43,8 +56,11 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
       held_(scene.standby ? 2 * kMostHeld : 0),
       snapshot_every_(snapshot_every(step_ns_)),
       snapshot_(fleet_),
+      snapshot_parts_(parts_of(scene, snapshot_.words(), snapshot_every_)),
       digests_every_step_(scene.run.hashes_every_step),
-      fleet_words_(fleet_words(segment.fleet_size())) {
+      fleet_words_(fleet_words(segment.fleet_size())),
+      fleet_parts_(parts_of(scene, fleet_words_.size(), telemetry_.fleet_every)),
+      fleet_part_(fleet_parts_) {
   if (obeys_run_control_) {
     fleet_.keep_start();
   }
@@ -62,7 +78,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
     }
     first_due = *due;
   }
-  publish(step(), true);
+  publish(step(), true, true);
   told_ = true;
   restart(clock, step(), first_due);
   const std::int64_t period_ns = pace_ == scene::Pace::clock ? beats_to_ns(clock, 1) : 0;
@@ -176,7 +192,7 @@ Tick::BeatTimes Tick::beat(std::uint64_t n, std::int64_t begun_ns) noexcept {
   const bool last_asked_for = allowed == 1 || (allowed > 1 && ended);
   told_ =
       segment_->snapshot_requested.exchange(0, std::memory_order_relaxed) != 0 || last_asked_for;
-  publish(n + 1, told_);
+  publish(n + 1, told_, last_asked_for);
   tell_standby(false);
   step_requests_.stepped(face(), ended);
   if (last_asked_for) {
@@ -193,8 +209,15 @@ void Tick::reached(std::uint64_t step) noexcept {
   }
   const Instant at{report_.run.load(std::memory_order_relaxed), step};
   digests_.add(fleet_.vehicles(), at);
+  snapshot_.hand_over(1);
   if (step % snapshot_every_ == 0) {
-    snapshot_.offer(fleet_.vehicles(), at);
+    snapshot_.take(fleet_.vehicles(), at, snapshot_parts_);
+    if (snapshot_parts_ == 1) {
+      snapshot_.hand_over(1);
+    }
+  } else if (const std::uint64_t left = beats_left(step, snapshot_every_);
+             left <= snapshot_parts_) {
+    snapshot_.prepare(snapshot_parts_ - left, snapshot_parts_);
   }
 }
 

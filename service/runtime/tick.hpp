@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -111,6 +112,9 @@ class Tick {
   /// The same of run control and of step requests.
   static constexpr int kRequestsPerBeat = 16;
 
+  /// Of a hand-over in parts.
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
   /// Commands that wait for their lead to pass, at most. A standby has room for more: it may be behind.
   static constexpr std::size_t kMostHeld = decltype(StandbyLink::relayed)::kCapacity;
 
@@ -161,14 +165,16 @@ class Tick {
   std::int64_t make_up(const BeatClock& clock, const std::atomic<bool>& stop) noexcept;
 
   // publishing.cpp
-  void publish(std::uint64_t step, bool everything) noexcept;
+  void publish(std::uint64_t step, bool everything, bool fleet_at_once) noexcept;
   std::uint32_t topics_at(std::uint64_t step, bool everything) const noexcept;
   bool push_sample(std::uint32_t spacecraft, std::uint32_t topics, std::uint32_t flags,
                    std::uint64_t step) noexcept;
   bool push_wheels(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
   bool push_linked(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
   bool push_pointing(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
-  void write_fleet(std::uint64_t step, std::uint32_t flags) noexcept;
+  void sample_fleet(std::uint64_t step, std::uint32_t flags) noexcept;
+  bool hand_over_fleet(std::size_t parts) noexcept;
+  void hand_over_rest() noexcept;
 
   MappedSegment& segment_;
   std::int64_t step_ns_;
@@ -193,9 +199,12 @@ class Tick {
   std::uint64_t next_number_ = 1;  ///< of the journal record that comes next, where there is a lead
   std::uint64_t snapshot_every_;   ///< steps: about a second of simulation time
   FleetSnapshot snapshot_;
+  std::size_t snapshot_parts_;
   bool digests_every_step_;
   StepDigests digests_;
-  std::vector<std::uint64_t> fleet_words_;
+  std::vector<std::uint64_t> fleet_words_;  ///< the fleet's state, as sampled at one step
+  std::size_t fleet_parts_;                 ///< in which it is handed over, one a beat
+  std::size_t fleet_part_;                  ///< the next one; all: nothing is left of it
   enum class Cause { sleep, work, loss };
   Cause late_by_ = Cause::sleep;  ///< what made the beats since the last sleep late
   std::int64_t used_ns_ = 0;      ///< of the processor by this thread, at the end of the last beat

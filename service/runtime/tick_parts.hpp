@@ -43,6 +43,11 @@ inline bool is_stale(std::int64_t received_ns, std::int64_t now_ns) noexcept {
   return received_ns != 0 && now_ns - received_ns > 2 * kSecond;
 }
 
+/// Until a step that is a multiple of `every`; at least one.
+inline std::uint64_t beats_left(std::uint64_t step, std::uint64_t every) noexcept {
+  return every - step % every;
+}
+
 /// One writer: a load and a store, no locked instruction.
 inline void add(std::atomic<std::uint64_t>& counter, std::uint64_t amount) noexcept {
   counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);

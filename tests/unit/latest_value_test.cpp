@@ -62,6 +62,23 @@ TEST(LatestWords, keep_a_value_whose_size_is_chosen_at_run_time) {
   }
 }
 
+TEST(LatestWords, written_in_parts_are_the_value_before_until_the_last_part) {
+  LatestWords latest;
+  constexpr std::size_t kSize = 100;
+  std::vector<std::uint64_t> storage(2 * kSize), before(kSize, 1), next(kSize, 2), got(kSize);
+  latest.write(storage, before);
+  latest.begin();
+  for (std::size_t first = 0; first < kSize; first += 30) {
+    EXPECT_EQ(latest.read(storage, got), 1u);
+    EXPECT_EQ(got, before);
+    latest.put(storage, next, first, std::min(first + 30, kSize));
+  }
+  EXPECT_EQ(latest.read(storage, got), 1u);
+  latest.end();
+  EXPECT_EQ(latest.read(storage, got), 2u);
+  EXPECT_EQ(got, next);
+}
+
 /// A reader that races a writer of values 1, 2, 3, ... without a pause.
 struct Reader {
   std::uint64_t torn = 0, backwards = 0, mislabelled = 0;

@@ -138,6 +138,60 @@ TEST(Tick, leaves_the_whole_fleet_in_its_slot) {
   }
 }
 
+TEST(Tick, hands_a_large_fleet_over_in_parts_all_of_one_step) {
+  constexpr std::size_t kMany = 1000;
+  scene::Scene scene = tick_scene(0);
+  scene.simulation.pace = scene::Pace::clock;
+  scene.simulation.step_ns = kMs;
+  scene.simulation.duration_ns = 44 * kMs;
+  scene.spacecraft.assign(kMany, scene.spacecraft[0]);
+  scene.telemetry = {};
+  scene.telemetry.fleet_every = 20;
+  MappedSegment segment = MappedSegment::create(kMany);
+  Tick tick(scene, segment);
+  tick.run(kGoOn);
+  const auto expect_at = [&](std::int64_t step) {
+    const auto snapshot = fleet_of(segment);
+    EXPECT_EQ(snapshot.header.step, static_cast<std::uint64_t>(step));
+    Fleet fleet(scene.spacecraft, "coadjoint_rk4", StepLimits{});
+    for (std::int64_t n = 0; n < step; ++n) {
+      fleet.step(n * kMs, kMs);
+    }
+    for (const std::size_t i : {std::size_t{0}, kMany / 2, kMany - 1}) {
+      EXPECT_EQ(snapshot.members[i].q_IB, sample(fleet.vehicles()[i]).q_IB) << i;
+    }
+    return snapshot.count;
+  };
+  EXPECT_EQ(expect_at(20), 2U) << "what was sampled at step 40 is not all there";
+  tick.publish_final(1000);
+  EXPECT_EQ(expect_at(44), 4U);
+}
+
+TEST(Tick, hands_over_what_it_has_begun_before_it_stands_still) {
+  scene::Scene scene = tick_scene(0);
+  scene.simulation.pace = scene::Pace::clock;
+  scene.simulation.step_ns = kMs;
+  scene.spacecraft.assign(1000, scene.spacecraft[0]);
+  scene.telemetry = {};
+  scene.telemetry.fleet_every = 1'000'000;
+  scene.budget.step_ns = 1;  // no step is done in that
+  scene.budget.on_overrun = scene::Overrun::halt;
+  MappedSegment segment = MappedSegment::create(1000);
+  segment->snapshot_requested = 1;
+  Tick tick(scene, segment);
+  std::atomic<bool> stop{false};
+  std::thread running([&] { tick.run(stop); });
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (fleet_of(segment).count < 2 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(fleet_of(segment).count, 2U);
+  EXPECT_EQ(fleet_of(segment).header.step, 1U);
+  stop = true;
+  running.join();
+  EXPECT_EQ(fleet_of(segment).count, 2U);
+}
+
 TEST(Tick, publishes_everything_once_when_a_snapshot_is_asked_for) {
   scene::Scene scene = tick_scene(3);
   MappedSegment segment = MappedSegment::create(2);

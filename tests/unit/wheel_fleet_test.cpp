@@ -1,5 +1,6 @@
 // Wheels in a fleet, under the command gate and under run control.
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
@@ -20,6 +21,36 @@ using test::with_wheels;
 void fly(Fleet& fleet, std::int64_t steps) {
   for (std::int64_t n = 0; n < steps; ++n) {
     EXPECT_EQ(fleet.step(n * 10 * kMs, 10 * kMs), 0U);
+  }
+}
+
+TEST(FleetSnapshot, is_of_one_step_in_however_many_parts_it_is_handed_over) {
+  std::vector<scene::Spacecraft> crafts(7, with_wheels(make_craft(0)));
+  for (const std::size_t parts : {1U, 2U, 5U, 100U}) {
+    Fleet fleet(crafts, "coadjoint_rk4", StepLimits{});
+    FleetSnapshot snapshot(fleet);
+    fly(fleet, 3);
+    const FleetState then = state_of(fleet);
+    snapshot.prepare(0, parts);
+    ASSERT_TRUE(snapshot.take(fleet.vehicles(), {0, 3}, parts));
+    for (std::size_t part = 0; part < parts; ++part) {
+      EXPECT_FALSE(snapshot.ready());
+      fly(fleet, 1);
+      snapshot.hand_over(1);
+    }
+    ASSERT_TRUE(snapshot.ready());
+    EXPECT_EQ(snapshot.at(), (Instant{0, 3}));
+    EXPECT_EQ(std::memcmp(snapshot.state().vehicles.data(), then.vehicles.data(),
+                          then.vehicles.size() * sizeof(VehicleState)),
+              0);
+    ASSERT_EQ(snapshot.state().wheel_momenta.size(), then.wheel_momenta.size());
+    for (std::size_t i = 0; i < then.wheel_momenta.size(); ++i) {
+      EXPECT_EQ(snapshot.state().wheel_momenta[i].value, then.wheel_momenta[i].value);
+    }
+    EXPECT_EQ(snapshot.state().memory, then.memory);
+    EXPECT_FALSE(snapshot.take(fleet.vehicles(), {0, 4}, parts)) << "it is still being read";
+    snapshot.done();
+    EXPECT_TRUE(snapshot.take(fleet.vehicles(), {0, 4}, parts));
   }
 }
 
