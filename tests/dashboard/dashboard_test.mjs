@@ -299,7 +299,8 @@ describe("an hour of data", () => {
     const page = await open(fake.url);
     await until("the hour is there", async () => (await page.evaluate(() => window.adstar.samples())) >= 36_000, 120_000);
     await page.locator('#window input[value="3600"]').check();
-    await page.waitForTimeout(6000); // the view finds out how often it may be drawn
+    await page.waitForTimeout(3000);
+    await until("the view knows how often it may be drawn", async () => page.evaluate(() => window.adstar.settled()), 60_000);
     const session = await page.context().newCDPSession(page);
     await session.send("HeapProfiler.collectGarbage");
     const heap = await session.send("Runtime.getHeapUsage");

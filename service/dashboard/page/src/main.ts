@@ -100,6 +100,7 @@ Object.assign(window, {
   adstar: {
     attitude: () => scene?.attitude(),
     drawn: () => scene?.drawn ?? 0,
+    settled: () => scene?.settled ?? true,
     samples: () => history.size,
   },
 });

@@ -78,6 +78,7 @@ export class Scene {
       }
     };
     requestAnimationFrame(frame);
+    document.addEventListener("visibilitychange", () => this.thrift.wake());
   }
 
   show(motion: Motion): void {
@@ -99,6 +100,11 @@ export class Scene {
     this.omega_B = vector(motion.omega_B_rad_s) ?? new Vector3();
     this.point(this.momentum, vector(motion.H_I_n_m_s));
     this.dirty = true;
+  }
+
+  /// Whether it is known how often the view may be drawn, for the page's own tests.
+  get settled(): boolean {
+    return this.thrift.settled;
   }
 
   /// The attitude that is drawn now, for the page's own tests: w first.
