@@ -65,9 +65,10 @@ class Client {
   int socket_;
 };
 
-std::string answer_to(int port, const std::string& path) {
+std::string answer_to(int port, const std::string& path, const std::string& more_head = "") {
   const Client client(port);
-  client.say("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n\r\n");
+  client.say("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n" +
+             more_head + "\r\n");
   return client.hear();
 }
 
@@ -123,6 +124,15 @@ TEST(Site, lets_those_go_together_who_waited_for_a_thread_in_vain) {
   Served served;
   const Dripping dripping(served.port, 200);
   EXPECT_NE(answer_to(served.port, "/metrics").find("200 OK"), std::string::npos);
+  EXPECT_FALSE(dripping.gave_up());
+}
+
+TEST(Site, reads_all_of_a_head_that_waited_for_a_thread) {
+  Served served;
+  const Dripping dripping(served.port, 200);
+  const std::string longer_than_a_read = "Cookie: " + std::string(5000, 'c') + "\r\n";
+  EXPECT_NE(answer_to(served.port, "/metrics", longer_than_a_read).find("200 OK"),
+            std::string::npos);
   EXPECT_FALSE(dripping.gave_up());
 }
 
