@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # How well is the beat kept, beside what this machine can do at all? Blocks of adstard at 1 kHz alternate with blocks of
-# cyclictest (Debian's rt-tests) at the same priority and interval on the same processor. Prints each block's wake-up lateness p99.9, and the medians
-# over the blocks.
+# cyclictest (Debian's rt-tests) and of beat_control, which spins for 0.05 ms of each beat, at the same priority and interval on the same processor.
+# Prints each block's wake-up lateness p99.9, and the medians over the blocks; how many beats were late after work of adstard's own, and how many
+# of the control's spins took more than a beat: the machine alone does that.
 #   bash tests/bench/beat.sh [build/release] [blocks] [seconds a block] [spacecraft]
 # Needs root, or the capabilities of README.md, "Real time".
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 bin=${1:-build/release} blocks=${2:-10} seconds=${3:-30} spacecraft=${4:-1}
 command -v cyclictest >/dev/null || { echo "beat.sh: cyclictest is missing; apt-get install rt-tests" >&2; exit 2; }
+control=$bin/tests/bench/beat_control_bench
+[[ -x $control ]] || { echo "beat.sh: $control is not built; cmake --build $bin --target beat_control_bench" >&2; exit 2; }
 cpu=$(($(nproc) - 1))
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -63,11 +66,15 @@ echo "1 kHz, $spacecraft spacecraft, $blocks blocks of $seconds s each, processo
 for ((block = 1; block <= blocks; ++block)); do
   theirs=$(cyclictest_block)
   ours=$(adstard_block)
+  spun=$("$control" "$seconds" 50 | grep -oE '[0-9]+ of them past' | grep -oE '[0-9]+')
   echo "$theirs" >> "$scratch/theirs"
   echo "$ours" >> "$scratch/ours"
-  printf 'block %2d  lateness p99.9: cyclictest %8.1f us, adstard %8.1f us; %s; %s; %s\n' "$block" "$theirs" "$ours" \
-    "$(grep -oE '[0-9]+ beats late .*' "$scratch/log")" "$(grep -oE 'the hand-over .*' "$scratch/log")" \
+  worked=$(grep -oE '[0-9]+ after our own work' "$scratch/log" | grep -oE '[0-9]+')
+  own=$((${own:-0} + worked)) machine=$((${machine:-0} + spun))
+  printf 'block %2d  lateness p99.9: cyclictest %8.1f us, adstard %8.1f us; spins past a beat: %d; %s; %s; %s; %s\n' "$block" "$theirs" "$ours" "$spun" \
+    "$(grep -oE '[0-9]+ beats late .*' "$scratch/log")" "$(grep -oE 'the step p50.*' "$scratch/log")" "$(grep -oE 'the hand-over .*' "$scratch/log")" \
     "$(grep -oE '[0-9]+ page faults.*' "$scratch/log")"
 done
 theirs=$(median < "$scratch/theirs") ours=$(median < "$scratch/ours")
 awk -v a="$theirs" -v b="$ours" 'BEGIN { printf "median over blocks: cyclictest %.1f us, adstard %.1f us, ratio %.2f (aim: at most 1.2)\n", a, b, b / a }'
+echo "of $((blocks * seconds * 1000)) beats each: late after adstard's own work $own; the control's spins of 0.05 ms that took more than a beat $machine"
