@@ -141,6 +141,7 @@ TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
     GTEST_SKIP() << "no error but round-off: its own test judges it";
   }
   constexpr int kStated = TypeParam::kOrder;
+  constexpr double kRoundOff = 1e-30;  // of the runs and of the truth: there is no order in it
   for (const bool diagonal_tensor : {true, false}) {
     const QuadMatrix J = diagonal_tensor ? diagonal() : full();
     for (const Load& load : loads()) {
@@ -159,7 +160,9 @@ TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
         EXPECT_NEAR(order, test::free_order<TypeParam>(), 0.15);
       }
       if (!TypeParam::kClaims.exact_momentum || (load.torque && kSplitting)) {
-        EXPECT_GT(this->order(coarse.momentum, fine.momentum), kStated - 0.25);
+        EXPECT_TRUE(this->order(coarse.momentum, fine.momentum) > kStated - 0.25 ||
+                    coarse.momentum < kRoundOff)
+            << "from " << coarse.momentum << " to " << fine.momentum;
       } else if (load.torque) {
         EXPECT_NEAR(this->order(coarse.momentum, fine.momentum), kStated, 0.25);
       } else {
