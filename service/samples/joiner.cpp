@@ -70,15 +70,15 @@ void Joiner::leave_lines(Track& track) {
 /// Null when the line that it continues has given that step out. A half whose row went without it is put aside, and
 /// comes back when the other half is said anew.
 Joiner::Waiting* Joiner::waiting_of(Track& track, Half half, std::uint64_t step) {
-  Halved* const halved = halved_at(track, step);
   Line* line = line_that_waits_for(track, half, step);
-  if (line == nullptr && halved != nullptr && (halved->halves & half) == 0) {
-    if (!halved->late) {
-      halved->late = std::make_unique<Waiting>();
-    }
-    return halved->late.get();
-  }
   if (line == nullptr) {
+    Halved* const halved = halved_at(track, step);
+    if (halved != nullptr && (halved->halves & half) == 0) {
+      if (!halved->late) {
+        halved->late = std::make_unique<Waiting>();
+      }
+      return halved->late.get();
+    }
     line = line_of(track, half, step);
   }
   if (line == nullptr) {
@@ -88,11 +88,13 @@ Joiner::Waiting* Joiner::waiting_of(Track& track, Half half, std::uint64_t step)
   newest = std::max(newest, step);
   line->fed = track.samples;
   Waiting& waiting = line->waiting[step];
+  Halved* const halved = halved_at(track, step);
   if (halved != nullptr && halved->late) {
     if (waiting.halves == 0) {
       waiting = std::move(*halved->late);
     }
     halved->late.reset();
+    halved->halves = kBoth;  // what comes next of that step is of the new run, and goes to its row
   }
   return &waiting;
 }

@@ -97,6 +97,35 @@ TEST(Joiner, a_half_that_comes_after_its_row_went_is_dropped) {
   EXPECT_EQ(described(joiner.rest()), "sat1@4:attitude");
 }
 
+TEST(Joiner, a_half_that_was_put_aside_is_not_that_of_a_new_run_once_that_one_speaks) {
+  Joiner joiner;
+  joiner.add(attitude(5));
+  joiner.add(attitude(6));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@5:attitude");
+  joiner.add(momentum(5));
+  joiner.end_round();
+  joiner.add(attitude(5));
+  adstar_MomentumState of_the_new_run = momentum(5);
+  of_the_new_run.momentum_body_n_m_s.x = 77;
+  joiner.add(of_the_new_run);
+  const std::vector<Row> rows = joiner.end_round();
+  ASSERT_EQ(described(rows), "sat1@5:both");
+  EXPECT_EQ(rows[0].values[kMomentumBody], 77);
+}
+
+/// As many lines as there may be, the oldest with a half that waits: it goes, and is remembered beside the one put aside.
+TEST(Joiner, a_half_that_was_put_aside_survives_that_others_are) {
+  Joiner joiner;
+  joiner.add(attitude(0));
+  joiner.add(attitude(1));
+  EXPECT_EQ(described(joiner.end_round()), "sat1@0:attitude");
+  joiner.add(momentum(0));
+  for (const std::uint64_t step : {10U, 9U, 8U, 7U, 0U}) {
+    joiner.add(attitude(step));
+  }
+  EXPECT_NE(described(joiner.rest()).find("sat1@0:both"), std::string::npos);
+}
+
 TEST(Joiner, spacecraft_do_not_wait_for_each_other) {
   Joiner joiner;
   joiner.add(attitude(3, "sat1"));
