@@ -101,6 +101,7 @@ void Recorder::take_snapshot() {
 
 bool Recorder::finish(const runtime::Fleet& fleet, const runtime::Instant& at) {
   stop_thread();
+  keep_up();  // what came since its last look
   const runtime::FleetState state = runtime::state_of(fleet);
   const std::uint64_t hash = run::state_hash(at.step, state);
   newest_ = {hash, at.step};

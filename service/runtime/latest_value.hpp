@@ -22,22 +22,23 @@ class LatestWords {
  public:
   /// Writer, a value at once. `storage` holds 2 * value.size() words.
   void write(std::span<std::uint64_t> storage, std::span<const std::uint64_t> value) noexcept {
-    begin();
-    put(storage, value, 0, value.size());
-    end();
+    const std::uint64_t count = begin();
+    put(count, storage, value, 0, value.size());
+    end(count);
   }
 
-  /// Writer, a value in parts: begin(), put() of every word, end(). Until then readers have the one before; one that
-  /// never ends is nowhere.
-  void begin() noexcept {
-    const std::uint64_t count = next();
+  /// Writer, a value in parts: begin(), put() of every word, end(), all with what begin() has returned. Until then readers
+  /// have the one before; one that never ends is nowhere.
+  std::uint64_t begin() noexcept {
+    const std::uint64_t count = count_.load(std::memory_order_relaxed) + 1;
     sequence_[count & 1].store(2 * count - 1, std::memory_order_relaxed);
+    return count;
   }
 
   /// Words [first, last) of `value`, which is given whole.
-  void put(std::span<std::uint64_t> storage, std::span<const std::uint64_t> value,
-           std::size_t first, std::size_t last) noexcept {
-    std::uint64_t* const target = storage.data() + (next() & 1) * value.size();
+  void put(std::uint64_t count, std::span<std::uint64_t> storage,
+           std::span<const std::uint64_t> value, std::size_t first, std::size_t last) noexcept {
+    std::uint64_t* const target = storage.data() + (count & 1) * value.size();
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t ahead = i + kAhead * kLineWords;
       if (i % kLineWords == 0 && ahead < last) {
@@ -47,8 +48,7 @@ class LatestWords {
     }
   }
 
-  void end() noexcept {
-    const std::uint64_t count = next();
+  void end(std::uint64_t count) noexcept {
     sequence_[count & 1].store(2 * count, std::memory_order_release);
     count_.store(count, std::memory_order_release);
   }
@@ -76,9 +76,6 @@ class LatestWords {
   }
 
  private:
-  /// Which value is being written.
-  std::uint64_t next() const noexcept { return count_.load(std::memory_order_relaxed) + 1; }
-
   alignas(64) std::atomic<std::uint64_t> count_{0};
   std::atomic<std::uint64_t> sequence_[2]{};
 };

@@ -54,7 +54,7 @@ void Tick::publish(std::uint64_t step, bool everything, bool fleet_at_once) noex
   }
   bool fleet_is_there = hand_over_fleet(1);
   if (fleet) {
-    sample_fleet(step, 0);
+    fleet_is_there = sample_fleet(step, 0) || fleet_is_there;
     if (fleet_at_once || fleet_parts_ == 1) {
       fleet_is_there = hand_over_fleet(kAll);
     }
@@ -149,8 +149,9 @@ bool Tick::push_pointing(std::uint32_t spacecraft, std::uint32_t flags,
   return segment_->pointing.push(record);
 }
 
-void Tick::sample_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
-  hand_over_fleet(kAll);  // the one before, if some of it is left
+/// True when some of the one before was left, which is there now.
+bool Tick::sample_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
+  const bool ended_one = hand_over_fleet(kAll);
   const FleetHeader header{step, static_cast<std::int64_t>(step) * step_ns_,
                            fleet_.vehicles().size()};
   std::uint64_t* word = fleet_words_.data();
@@ -170,21 +171,22 @@ void Tick::sample_fleet(std::uint64_t step, std::uint32_t flags) noexcept {
     worst = worse(worst, momentum_residual_relative(vehicle));
   }
   report_.worst_momentum_residual_relative.store(worst, std::memory_order_relaxed);
-  segment_->fleet.begin();
+  fleet_count_ = segment_->fleet.begin();
   fleet_part_ = 0;
+  return ended_one;
 }
 
 /// At most so many parts of what was sampled. True with the last one.
 bool Tick::hand_over_fleet(std::size_t parts) noexcept {
   const std::size_t before = fleet_part_;
   for (; fleet_part_ < fleet_parts_ && parts > 0; --parts, ++fleet_part_) {
-    segment_->fleet.put(segment_.fleet_storage(), fleet_words_,
+    segment_->fleet.put(fleet_count_, segment_.fleet_storage(), fleet_words_,
                         fleet_words_.size() * fleet_part_ / fleet_parts_,
                         fleet_words_.size() * (fleet_part_ + 1) / fleet_parts_);
   }
   const bool ended = before < fleet_parts_ && fleet_part_ == fleet_parts_;
   if (ended) {
-    segment_->fleet.end();
+    segment_->fleet.end(fleet_count_);
   }
   return ended;
 }

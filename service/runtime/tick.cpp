@@ -56,7 +56,7 @@ Tick::Tick(const scene::Scene& scene, MappedSegment& segment)
       held_(scene.standby ? 2 * kMostHeld : 0),
       snapshot_every_(snapshot_every(step_ns_)),
       snapshot_(fleet_),
-      snapshot_parts_(parts_of(scene, snapshot_.words(), snapshot_every_)),
+      snapshot_parts_(parts_of(scene, snapshot_.words(), snapshot_every_ / 2)),
       digests_every_step_(scene.run.hashes_every_step),
       fleet_words_(fleet_words(segment.fleet_size())),
       fleet_parts_(parts_of(scene, fleet_words_.size(), telemetry_.fleet_every)),
@@ -90,6 +90,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
     if (stands()) {
       stand(stop);
       ended = monotonic_ns();
+      used_ns_ = used_by_this_thread_ns();
       continue;
     }
     const std::uint64_t n = step();
@@ -108,6 +109,7 @@ void Tick::run(const std::atomic<bool>& stop) noexcept {
     account(times, by_clock ? period_ns : 0);
     ended = times.handed_over;
   }
+  hand_over_rest();
   digests_.flush();
   step_requests_.interrupt(face());
 }

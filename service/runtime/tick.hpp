@@ -1,6 +1,6 @@
 #pragma once
-// The tick: at beat n take the commands, step [t_n, t_n+1], publish t_n+1 at once, account for the
-// time.
+// The tick: at beat n take the commands, step [t_n, t_n+1], publish t_n+1 at once (the state of a large fleet in parts,
+// over the beats after it), account for the time.
 //
 // Nothing in here calls DDS, the logger or the allocator, or waits on a lock; the only system calls
 // are the sleep to the next beat and, when the bridge sleeps, one futex wake.
@@ -172,7 +172,7 @@ class Tick {
   bool push_wheels(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
   bool push_linked(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
   bool push_pointing(std::uint32_t spacecraft, std::uint32_t flags, std::uint64_t step) noexcept;
-  void sample_fleet(std::uint64_t step, std::uint32_t flags) noexcept;
+  bool sample_fleet(std::uint64_t step, std::uint32_t flags) noexcept;
   bool hand_over_fleet(std::size_t parts) noexcept;
   void hand_over_rest() noexcept;
 
@@ -204,6 +204,7 @@ class Tick {
   StepDigests digests_;
   std::vector<std::uint64_t> fleet_words_;  ///< the fleet's state, as sampled at one step
   std::size_t fleet_parts_;                 ///< in which it is handed over, one a beat
+  std::uint64_t fleet_count_ = 0;           ///< of fleet states, with it
   std::size_t fleet_part_;                  ///< the next one; all: nothing is left of it
   enum class Cause { sleep, work, loss };
   Cause late_by_ = Cause::sleep;  ///< what made the beats since the last sleep late

@@ -67,14 +67,14 @@ TEST(LatestWords, written_in_parts_are_the_value_before_until_the_last_part) {
   constexpr std::size_t kSize = 100;
   std::vector<std::uint64_t> storage(2 * kSize), before(kSize, 1), next(kSize, 2), got(kSize);
   latest.write(storage, before);
-  latest.begin();
+  const std::uint64_t count = latest.begin();
   for (std::size_t first = 0; first < kSize; first += 30) {
     EXPECT_EQ(latest.read(storage, got), 1u);
     EXPECT_EQ(got, before);
-    latest.put(storage, next, first, std::min(first + 30, kSize));
+    latest.put(count, storage, next, first, std::min(first + 30, kSize));
   }
   EXPECT_EQ(latest.read(storage, got), 1u);
-  latest.end();
+  latest.end(count);
   EXPECT_EQ(latest.read(storage, got), 2u);
   EXPECT_EQ(got, next);
 }

@@ -23,7 +23,7 @@ using test::tick_scene;
 class Running {
  public:
   explicit Running(const scene::Scene& scene, JournalWriter* journal = nullptr)
-      : tick(scene, segment) {
+      : segment(MappedSegment::create(scene.spacecraft.size())), tick(scene, segment) {
     tick.record_in(journal);
     runner_ = std::thread([this] {
       tick.run(stop_);
@@ -91,7 +91,7 @@ class Running {
 
   std::uint64_t steps_taken() const { return tick.report().step.load(); }
 
-  MappedSegment segment = MappedSegment::create(2);
+  MappedSegment segment;
   Tick tick;
   std::atomic<bool> ended{false};
 
@@ -325,6 +325,22 @@ TEST(RunControl, resets_a_run_that_goes_by_the_clock) {
   EXPECT_TRUE(Running::wait_for([&] { return the.steps_taken() > 20; }));
   EXPECT_EQ(the.control(ControlAction::reset).step, 0U);
   EXPECT_TRUE(Running::wait_for([&] { return the.steps_taken() > 5; }));
+}
+
+TEST(RunControl, reset_ends_what_is_being_handed_over_of_the_run_before) {
+  scene::Scene scene = tick_scene(0);
+  scene.simulation.pace = scene::Pace::clock;
+  scene.simulation.step_ns = kMs;
+  scene.service.run_control = true;
+  scene.spacecraft.assign(1000, scene.spacecraft[0]);
+  scene.telemetry = {};
+  scene.telemetry.fleet_every = 1'000'000;
+  Running the(scene);
+  the.segment->snapshot_requested = 1;  // whereupon a beat begins to
+  ASSERT_TRUE(Running::wait_for([&] { return the.segment->snapshot_requested.load() == 0; }));
+  EXPECT_EQ(the.control(ControlAction::reset).refusal, ControlRefusal::none);
+  EXPECT_EQ(test::fleet_of(the.segment).count, 2U);
+  EXPECT_GT(test::fleet_of(the.segment).header.step, 0U);
 }
 
 TEST(RunControl, is_written_down_with_its_step_and_outcome_where_it_changes_the_fleet) {
