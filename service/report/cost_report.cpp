@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <vector>
 
@@ -105,14 +106,28 @@ std::string costs_of(const scene::Spacecraft& craft, const scene::Simulation& si
   return text;
 }
 
-std::string worth_of(const TorqueEstimate& estimate, const std::optional<double>& accuracy) {
+/// Whether a part may turn by more than the whole does.
+bool has_moving_joints(const scene::Spacecraft& craft) {
+  return craft.linked && std::any_of(craft.linked->joints.begin(), craft.linked->joints.end(),
+                                     [](const multibody::Joint<double>& joint) {
+                                       return joint.kind != multibody::JointKind::fixed;
+                                     });
+}
+
+std::string worth_of(const TorqueEstimate& estimate, const scene::Spacecraft& craft,
+                     const std::optional<double>& accuracy) {
   if (!estimate.torque_n_m) {
     return "not estimable about another body than the Earth";
   }
-  std::string text = fmt::format("{} {:.0e} N m, turns it by {} {:.0e} rad",
-                                 estimate.modelled ? "at most" : "about", *estimate.torque_n_m,
-                                 estimate.modelled ? "at most" : "about", estimate.turn_rad);
-  if (accuracy && estimate.modelled && estimate.turn_rad < *accuracy) {
+  const bool joints_move = has_moving_joints(craft);
+  const std::string_view limit = estimate.modelled ? "at most" : "about";
+  std::string text =
+      fmt::format("{} {:.0e} N m, turns {} by {} {:.0e} rad", limit, *estimate.torque_n_m,
+                  craft.linked ? "the whole" : "it", limit, estimate.turn_rad);
+  if (joints_move && estimate.turn_rad < std::numbers::pi) {
+    text += ", a joint perhaps by more";
+  }
+  if (accuracy && estimate.modelled && estimate.turn_rad < *accuracy && !joints_move) {
     text += fmt::format(": WARNING, below the {:.0e} rad asked for; leave it out", *accuracy);
   } else if (accuracy && !estimate.modelled && estimate.turn_rad > *accuracy) {
     text += fmt::format(": WARNING, above the {:.0e} rad asked for; name it", *accuracy);
@@ -130,7 +145,7 @@ std::string worths_of(const scene::Spacecraft& craft, const scene::Simulation& s
   for (const TorqueEstimate& estimate : estimates_of(craft, horizon)) {
     text += fmt::format("    {:<17} {:<12} {}\n", estimate.model,
                         estimate.modelled ? "modelled" : "left out",
-                        worth_of(estimate, simulation.accuracy_rad));
+                        worth_of(estimate, craft, simulation.accuracy_rad));
   }
   return text;
 }

@@ -13,15 +13,26 @@
 namespace adstar::report {
 namespace {
 
-/// Side and mass of the cube that has such an inertia: J = m s²/6, m = ρ s³.
-struct Cube {
-  double side_m = 0, mass_kg = 0;
+/// What a scene need not say: the mass, and the area that is pushed with its lever about the centre of mass.
+struct Guess {
+  double mass_kg = 0, area_by_lever_m3 = 0;
 };
 
-Cube cube_of(double moment_kg_m2) {
-  constexpr double kDensity_kg_m3 = 300;
-  const double side = std::pow(6 * moment_kg_m2 / kDensity_kg_m3, 0.2);
-  return {side, kDensity_kg_m3 * side * side * side};
+/// The cube that has such an inertia, J = m s²/6, m = ρ s³; of linked bodies each the cube that has its mass.
+Guess guess_of(const scene::Spacecraft& craft, double mean_moment_kg_m2) {
+  constexpr double kDensity_kg_m3 = 300, kOffset = 0.1;
+  if (!craft.linked) {
+    const double side = std::pow(6 * mean_moment_kg_m2 / kDensity_kg_m3, 0.2);
+    const double volume = side * side * side;
+    return {kDensity_kg_m3 * volume, kOffset * volume};
+  }
+  Guess all;
+  for (const multibody::BodySpec<double>& body : craft.linked->bodies) {
+    const double side = std::cbrt(body.mass_kg / kDensity_kg_m3);
+    all.mass_kg += body.mass_kg;
+    all.area_by_lever_m3 += side * side * (kOffset * side + norm(body.x_I));
+  }
+  return all;
 }
 
 /// What pushes a linked body turns the whole by its arm too, as it is at the start.
@@ -65,6 +76,17 @@ Eigen::Matrix3d inertia_of_whole(const scene::Spacecraft& craft) {
   return 0.5 * (J + J.transpose());
 }
 
+/// Never less than its bodies have about themselves, which the difference of far larger numbers may say.
+double least_moment_of(const scene::Spacecraft& craft, const RigidBody<double>& whole) {
+  double of_bodies = 0;
+  if (craft.linked) {
+    for (const multibody::BodySpec<double>& body : craft.linked->bodies) {
+      of_bodies += RigidBody<double>(body.inertia_B).moments()[0];
+    }
+  }
+  return std::max(whole.moments()[0], of_bodies);
+}
+
 double turn_of(double torque_n_m, double least_moment, double horizon_s) {
   return std::min(std::numbers::pi, 0.5 * torque_n_m / least_moment * horizon_s * horizon_s);
 }
@@ -92,9 +114,9 @@ double horizon_of(const scene::Simulation& simulation, const scene::Spacecraft& 
 std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double horizon_s) {
   const RigidBody<double> body(inertia_of_whole(craft));
   const auto& moments = body.moments();
-  const Cube cube = cube_of((moments[0] + moments[1] + moments[2]) / 3);
-  constexpr double kOffset = 0.1, kDrag = 2.2, kDipole_a_m2_kg = 3e-3, kReflection = 1.5;
-  const double lever_area = kOffset * cube.side_m * cube.side_m * cube.side_m;
+  const double least_moment = least_moment_of(craft, body);
+  const Guess guessed = guess_of(craft, (moments[0] + moments[1] + moments[2]) / 3);
+  constexpr double kDrag = 2.2, kDipole_a_m2_kg = 3e-3, kReflection = 1.5;
   std::optional<double> r;
   if (craft.orbit) {
     r = least_distance(*craft.orbit);
@@ -106,13 +128,13 @@ std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double 
       estimate.torque_n_m = guess();
     }
     if (estimate.torque_n_m) {
-      estimate.turn_rad = turn_of(*estimate.torque_n_m, moments[0], horizon_s);
+      estimate.turn_rad = turn_of(*estimate.torque_n_m, least_moment, horizon_s);
     }
     all.push_back(estimate);
   };
-  using Guess = std::optional<double>;
+  using Torque_n_m = std::optional<double>;
   const bool earth = r && is_about_the_earth(*craft.orbit);
-  const auto gradient = [&]() -> Guess {
+  const auto gradient = [&]() -> Torque_n_m {
     return 1.5 * gravity_of(*craft.orbit) / *r / *r / *r * (moments[2] - moments[0]);
   };
   // Of linked bodies the tide between them is nearly all of it.
@@ -121,18 +143,23 @@ std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double 
     modelled = gradient();
   }
   add(GravityGradient<double>::kName, modelled, gradient);
-  add(ResidualDipole<double>::kName, bound_of_all<ResidualDipole<double>>(craft), [&]() -> Guess {
-    return earth ? Guess(kDipole_a_m2_kg * cube.mass_kg * DipoleField<double>{}.bound(*r))
-                 : std::nullopt;
-  });
-  add(Aerodynamic<double>::kName, bound_of_all<Aerodynamic<double>>(craft), [&]() -> Guess {
+  add(ResidualDipole<double>::kName, bound_of_all<ResidualDipole<double>>(craft),
+      [&]() -> Torque_n_m {
+        return earth
+                   ? Torque_n_m(kDipole_a_m2_kg * guessed.mass_kg * DipoleField<double>{}.bound(*r))
+                   : std::nullopt;
+      });
+  add(Aerodynamic<double>::kName, bound_of_all<Aerodynamic<double>>(craft), [&]() -> Torque_n_m {
     const double v = greatest_speed(*craft.orbit);
-    return earth ? Guess(0.5 * air_density(*r - kEarthRadius_m) * v * v * kDrag * lever_area)
+    return earth ? Torque_n_m(0.5 * air_density(*r - kEarthRadius_m) * v * v * kDrag *
+                              guessed.area_by_lever_m3)
                  : std::nullopt;
   });
-  add(SolarPressure<double>::kName, bound_of_all<SolarPressure<double>>(craft), [&]() -> Guess {
-    return earth ? Guess(kSolarPressure_N_m2 * kReflection * lever_area) : std::nullopt;
-  });
+  add(SolarPressure<double>::kName, bound_of_all<SolarPressure<double>>(craft),
+      [&]() -> Torque_n_m {
+        return earth ? Torque_n_m(kSolarPressure_N_m2 * kReflection * guessed.area_by_lever_m3)
+                     : std::nullopt;
+      });
   return all;
 }
 

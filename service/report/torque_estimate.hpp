@@ -20,7 +20,8 @@ struct TorqueEstimate {
 
 /// Of the torques of the surroundings, over `horizon_s`. What the scene does not say is taken from the inertia: a cube
 /// of 300 kg/m³ with its centre of pressure off by a tenth of its side, 3e-3 A m² a kg of residual dipole (NASA SP-8018,
-/// 1969, for a spacecraft without magnetic discipline). Linked bodies are the whole of them, as they stand at the start.
+/// 1969, for a spacecraft without magnetic discipline). Linked bodies are the whole of them, as they stand at the start: cubes of
+/// their masses, pushed at their places.
 std::vector<TorqueEstimate> estimates_of(const scene::Spacecraft& craft, double horizon_s);
 
 /// What the estimates are for: the scene's duration, or else a revolution, or else an hour [s].

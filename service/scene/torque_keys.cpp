@@ -195,7 +195,7 @@ constexpr Model kModels[] = {{Constant<double>::kName, read_constant},
 static_assert(std::size(kModels) == std::variant_size_v<Torque<double>>,
               "every model of adstar/torques/all.hpp has its keys here");
 
-/// Which of the linked bodies; none where the file does not say.
+/// Which of the linked bodies; none where the file does not say, or names no body.
 std::optional<std::size_t> read_body_name(const Value& value, const LinkedPlan& linked) {
   if (!value) {
     return std::nullopt;
@@ -204,13 +204,16 @@ std::optional<std::size_t> read_body_name(const Value& value, const LinkedPlan& 
   for (const auto& body : linked.linked.bodies) {
     names.push_back(body.name);
   }
-  return read_choice(value, names).value_or(0);
+  return read_choice(value, names);
 }
 
-/// The same torque for another body's outside.
+/// The same torque for another body's outside; one that was refused, for that body too.
 TorquePlan on_outside_of(const TorquePlan& plan, const LinkedPlan& linked, std::size_t body) {
   TorquePlan own = plan;
   own.body = body;
+  if (!plan.make) {
+    return own;
+  }
   own.make = [make = plan.make, outside = linked.outsides[body]](Draws& draws) {
     Torque<double> torque = make(draws);
     std::visit(
@@ -229,8 +232,10 @@ TorquePlan on_outside_of(const TorquePlan& plan, const LinkedPlan& linked, std::
 std::vector<TorquePlan> read_push(Keys& keys, const Model& model, TorqueContext context) {
   const std::vector<Facets<double>>& outsides = context.linked->outsides;
   std::vector<std::size_t> bodies;
-  if (const auto body = read_body_name(keys.optional("body"), *context.linked)) {
-    bodies = {*body};
+  const Value name = keys.optional("body");
+  const auto named = read_body_name(name, *context.linked);
+  if (named) {
+    bodies = {*named};
   } else {
     for (std::size_t i = 0; i < outsides.size(); ++i) {
       if (outsides[i] != nullptr) {
@@ -241,8 +246,11 @@ std::vector<TorquePlan> read_push(Keys& keys, const Model& model, TorqueContext 
   context.facets = bodies.empty() ? nullptr : outsides[bodies.front()];
   const TorquePlan plan = model.read(keys, context);
   std::vector<TorquePlan> plans;
+  if (name && !named) {
+    return plans;  // of no body, which was said
+  }
   for (const std::size_t body : bodies) {
-    plans.push_back(plan.make ? on_outside_of(plan, *context.linked, body) : plan);
+    plans.push_back(on_outside_of(plan, *context.linked, body));
   }
   return plans;
 }

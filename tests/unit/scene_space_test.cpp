@@ -6,6 +6,7 @@
 
 #include "scene_text.hpp"
 #include "service/report/scene_report.hpp"
+#include "service/runtime/fleet.hpp"
 #include "service/scene/time_scales.hpp"
 
 namespace adstar::scene {
@@ -47,15 +48,15 @@ TEST(SceneSpace, names_every_model_of_it_together) {
 }
 
 /// Three bodies, of which the hub and the last have an outside.
-std::string linked_scene(const std::string& torques) {
+std::string linked_scene(const std::string& torques, const std::string& of_facet = "") {
   const std::string body = "mass_kg = 5\ninertia_body_kg_m2 = [0.5, 0.2, 0.6]\n";
   const std::string joint =
       "kind = \"fixed\"\npoint_from_body_m = [1, 0, 0]\npoint_to_body_m = [0, 0, 0]\n";
   return scene_of("mass_kg = 100\n" + kOrbit + kBox + "[[spacecraft.body]]\nname = \"bare\"\n" +
                   body + "[[spacecraft.joint]]\nname = \"a\"\nfrom = \"hub\"\nto = \"bare\"\n" +
                   joint + "[[spacecraft.chain]]\nname = \"link{}\"\ncount = 1\nfrom = \"bare\"\n" +
-                  body + joint + "facet = [ { area_m2 = 3, normal_body = [0, 0, 1], " +
-                  "centre_body_m = [0, 0, 0] } ]\n" + torques);
+                  body + joint + "facet = [ { area_m2 = 3, normal_body = [0, 1, 0], " +
+                  "centre_body_m = [0, 0, 0]" + of_facet + " } ]\n" + torques);
 }
 
 TEST(SceneSpace, what_pushes_goes_to_the_linked_body_that_it_names_or_to_each_that_has_an_outside) {
@@ -89,6 +90,29 @@ TEST(SceneSpace, what_pushes_goes_to_the_linked_body_that_it_names_or_to_each_th
             std::string::npos);
   const std::string twice = refusal(linked_scene(model("aerodynamic", "density_factor = 0\n")));
   EXPECT_EQ(twice.find("density_factor"), twice.rfind("density_factor")) << "said once: " << twice;
+  EXPECT_EQ(twice.find("again"), std::string::npos) << "one block is no repetition: " << twice;
+  const std::string astray = refusal(linked_scene(model("aerodynamic", "body = \"lnik0\"\n")));
+  EXPECT_NE(astray.find("lnik0"), std::string::npos) << astray;
+  EXPECT_EQ(astray.find("an outside"), std::string::npos) << "that body has one: " << astray;
+}
+
+/// Each pushed body has its own air: three times as dense for the link, or the link three times as rough.
+TEST(SceneSpace, what_one_linked_body_feels_is_not_what_another_does) {
+  const auto flown = [](const std::string& torques, const std::string& more) {
+    const Spacecraft craft = read(linked_scene(torques, more));
+    runtime::Fleet fleet({craft}, "coadjoint_rk4", StepLimits{});
+    for (std::int64_t n = 0; n < 100; ++n) {
+      fleet.step(n * 1'000'000'000, 1'000'000'000);
+    }
+    return fleet.vehicles()[0].state.H_I.value();
+  };
+  const std::string hub = model("aerodynamic", "body = \"hub\"\n");
+  const std::string link = model("aerodynamic", "body = \"link0\"\n");
+  const Vec3<double> denser = flown(hub + link + "density_factor = 3.0\n", "");
+  const Vec3<double> rougher = flown(hub + link, ", drag_coefficient = 6.6");
+  const Vec3<double> alike = flown(hub + link, "");
+  EXPECT_LT(norm(denser - rougher), 1e-9 * norm(denser - alike));
+  EXPECT_GT(norm(denser - alike), 0);
 }
 
 TEST(SceneSpace, a_thruster_with_a_schedule_is_nobodys_to_command) {
