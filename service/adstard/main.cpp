@@ -215,14 +215,18 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
 
   runtime::RealTime real_time;
   runtime::lock_memory(real_time);
+  const bool by_clock = scene.simulation.pace == scene::Pace::clock;
+  std::optional<runtime::ShallowIdle> idle;
+  if (by_clock && scene.service.priority > 0 && scene.service.cpu) {
+    idle.emplace(real_time);
+  }
   std::atomic<bool> stop{false};
   std::atomic<bool> prepared{false};
   std::atomic<bool> ended{false};
   std::atomic<bool> dismissed{false};
   std::thread tick_thread([&] {
-    runtime::make_thread_real_time(
-        scene.simulation.pace == scene::Pace::clock ? scene.service.priority : 0, scene.service.cpu,
-        real_time);
+    runtime::make_thread_real_time(by_clock ? scene.service.priority : 0, scene.service.cpu,
+                                   real_time);
     prepared.store(true);
     prepared.notify_one();
     tick.run(stop);
@@ -232,6 +236,9 @@ int fly(Plan& plan, const Options& options, const sigset_t& signals) {
   prepared.wait(false);
   for (const std::string& warning : real_time.warnings) {
     spdlog::warn("{}", warning);
+  }
+  if (real_time.idle_is_shallow) {
+    spdlog::info("no processor sleeps deeply while this flies (/dev/cpu_dma_latency)");
   }
   housekeeping.watch_thread(real_time.thread);
 

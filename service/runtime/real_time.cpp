@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <pthread.h>
 #include <sched.h>
@@ -72,6 +73,26 @@ void lock_memory(RealTime& result) {
       std::string("memory is not locked (") + std::strerror(errno) +
       "): a page fault may delay a beat; run as root, or raise 'memlock' to unlimited in "
       "/etc/security/limits.d, or: setcap cap_ipc_lock,cap_sys_nice+ep adstard");
+}
+
+ShallowIdle::ShallowIdle(RealTime& result)
+    : device_(open("/dev/cpu_dma_latency", O_RDWR | O_CLOEXEC)) {
+  const std::int32_t latency_us = 0;
+  result.idle_is_shallow =
+      device_ >= 0 && write(device_, &latency_us, sizeof latency_us) == sizeof latency_us;
+  if (!result.idle_is_shallow && errno != ENOENT) {
+    result.warnings.push_back(
+        std::string("processors may sleep deeply between beats (/dev/cpu_dma_latency: ") +
+        std::strerror(errno) +
+        "): they wake later then; run as root, or have somebody hold it: tuned-adm profile "
+        "latency-performance");
+  }
+}
+
+ShallowIdle::~ShallowIdle() {
+  if (device_ >= 0) {
+    close(device_);
+  }
 }
 
 void make_thread_real_time(int priority, std::optional<int> cpu, RealTime& result) {

@@ -2,7 +2,11 @@
 #include "service/runtime/admission.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
 #include <memory>
 #include <unistd.h>
 
@@ -91,6 +95,21 @@ TEST(ThreadAccount, of_nobody_is_nothing) {
   EXPECT_EQ(none.minor_faults, 0U);
   EXPECT_FALSE(none.fifo_scheduling);
   EXPECT_FALSE(none.cpu_pinned);
+}
+
+TEST(ShallowIdle, has_the_system_wake_its_processors_at_once) {
+  const int device = open("/dev/cpu_dma_latency", O_RDONLY | O_CLOEXEC);
+  if (device < 0) {
+    GTEST_SKIP() << "/dev/cpu_dma_latency: " << std::strerror(errno);
+  }
+  RealTime result;
+  const ShallowIdle idle(result);
+  EXPECT_TRUE(result.idle_is_shallow);
+  EXPECT_TRUE(result.warnings.empty());
+  std::int32_t latency_us = -1;
+  EXPECT_EQ(read(device, &latency_us, sizeof latency_us), ssize_t{sizeof latency_us});
+  EXPECT_EQ(latency_us, 0);
+  close(device);
 }
 
 }  // namespace
