@@ -2,10 +2,13 @@
 // Distribution of times in fixed memory: 32 buckets an octave (the idea of HdrHistogram, Tene
 // 2012), so a quantile is known to 3 %. One thread records, any thread reads.
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "service/runtime/records.hpp"
 
@@ -44,9 +47,20 @@ class Histogram {
     QuantilesRecord result;
     result.count = count_.load(std::memory_order_relaxed);
     result.max_ns = static_cast<std::int64_t>(maximum_.load(std::memory_order_relaxed));
-    result.p50_ns = quantile(result, 0.5);
-    result.p99_ns = quantile(result, 0.99);
-    result.p99_9_ns = quantile(result, 0.999);
+    result.p50_ns = result.p99_ns = result.p99_9_ns = result.max_ns;
+    // In one pass, so that what is recorded meanwhile brings none of them past another.
+    const std::array<std::pair<double, std::int64_t*>, 3> wanted{
+        {{0.5, &result.p50_ns}, {0.99, &result.p99_ns}, {0.999, &result.p99_9_ns}}};
+    auto next = wanted.begin();
+    std::uint64_t seen = 0;
+    for (std::size_t bucket = 0; bucket < kBuckets && next != wanted.end(); ++bucket) {
+      seen += buckets_[bucket].load(std::memory_order_relaxed);
+      while (next != wanted.end() && seen > 0 &&
+             static_cast<double>(seen) >= next->first * static_cast<double>(result.count)) {
+        *next->second = std::min(static_cast<std::int64_t>(top_of(bucket)), result.max_ns);
+        ++next;
+      }
+    }
     return result;
   }
 
@@ -76,19 +90,6 @@ class Histogram {
     const std::size_t octave = bucket / kPerOctave - 1;
     const std::uint64_t first = (kPerOctave + bucket % kPerOctave) << octave;
     return first + ((std::uint64_t{1} << octave) - 1);
-  }
-
-  std::int64_t quantile(const QuantilesRecord& known, double fraction) const noexcept {
-    const double wanted = fraction * static_cast<double>(known.count);
-    std::uint64_t seen = 0;
-    for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) {
-      seen += buckets_[bucket].load(std::memory_order_relaxed);
-      if (seen > 0 && static_cast<double>(seen) >= wanted) {
-        const auto top = static_cast<std::int64_t>(top_of(bucket));
-        return top < known.max_ns ? top : known.max_ns;
-      }
-    }
-    return known.max_ns;
   }
 
   std::atomic<std::uint64_t> buckets_[kBuckets]{};
