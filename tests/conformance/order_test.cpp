@@ -129,6 +129,19 @@ class OrderOf : public testing::Test {
             abs(body.energy(body_momentum(state)) - energy_0 - state.work.value)};
   }
 
+  /// A quadrature of high order leaves nothing but round-off, of the run and of the truth, in which there is no order:
+  /// with fewer steps there is.
+  static double momentum_order(const QuadMatrix& J, const Load& load, const PlainState& exact,
+                               int steps, Errors coarse, Errors fine) {
+    const Quad round_off("1e-29");
+    while (fine.momentum < round_off && steps > 2) {
+      steps /= 2;
+      fine = coarse;
+      coarse = errors(J, load, exact, steps);
+    }
+    return order(coarse.momentum, fine.momentum);
+  }
+
   static double order(const Quad& coarse, const Quad& fine) {
     return std::log2(static_cast<double>(coarse / fine));
   }
@@ -141,7 +154,6 @@ TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
     GTEST_SKIP() << "no error but round-off: its own test judges it";
   }
   constexpr int kStated = TypeParam::kOrder;
-  constexpr double kRoundOff = 1e-30;  // of the runs and of the truth: there is no order in it
   for (const bool diagonal_tensor : {true, false}) {
     const QuadMatrix J = diagonal_tensor ? diagonal() : full();
     for (const Load& load : loads()) {
@@ -160,9 +172,7 @@ TYPED_TEST(OrderOf, is_as_stated_for_every_tensor_and_torque) {
         EXPECT_NEAR(order, test::free_order<TypeParam>(), 0.15);
       }
       if (!TypeParam::kClaims.exact_momentum || (load.torque && kSplitting)) {
-        EXPECT_TRUE(this->order(coarse.momentum, fine.momentum) > kStated - 0.25 ||
-                    coarse.momentum < kRoundOff)
-            << "from " << coarse.momentum << " to " << fine.momentum;
+        EXPECT_GT(this->momentum_order(J, load, exact, steps, coarse, fine), kStated - 0.25);
       } else if (load.torque) {
         EXPECT_NEAR(this->order(coarse.momentum, fine.momentum), kStated, 0.25);
       } else {

@@ -98,7 +98,7 @@ TEST(ThreadAccount, of_nobody_is_nothing) {
 }
 
 TEST(ShallowIdle, has_the_system_wake_its_processors_at_once) {
-  const int device = open("/dev/cpu_dma_latency", O_RDONLY | O_CLOEXEC);
+  const int device = open("/dev/cpu_dma_latency", O_RDWR | O_CLOEXEC);
   if (device < 0) {
     GTEST_SKIP() << "/dev/cpu_dma_latency: " << std::strerror(errno);
   }
