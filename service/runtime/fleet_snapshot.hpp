@@ -114,8 +114,8 @@ struct Instant {
 
 /// One snapshot at a time: the writer leaves out what the reader has no time for.
 ///
-/// What the reader has is its processor's: each line of it costs the writer much more than a line of its own. A large
-/// fleet is taken in one step, and handed over in parts.
+/// What the reader has is its processor's, and what nobody has touched for a second is far away. A large fleet is taken at
+/// one step, into memory that was brought near, and handed over in parts (decisions/0024-hand-over-in-parts.md).
 class FleetSnapshot {
  public:
   explicit FleetSnapshot(const Fleet& fleet)
