@@ -7,40 +7,14 @@
 #include "service/adstar/failure.hpp"
 #include "service/adstar/output.hpp"
 #include "service/adstar/progress_bar.hpp"
+#include "service/adstar/reflight_text.hpp"
 #include "service/adstar/stop_signal.hpp"
 #include "service/adstar/usage.hpp"
 #include "service/adstar/verbs.hpp"
-#include "service/report/numbers.hpp"
 #include "service/run/refly.hpp"
 
 namespace adstar::cli {
 namespace {
-
-std::string plural(std::uint64_t count, const char* one, const char* many) {
-  return report::counted(count) + " " + (count == 1 ? one : many);
-}
-
-std::string text_of(const run::Instant& at) {
-  return at.resets == 0 ? fmt::format("step {}", at.step)
-                        : fmt::format("step {} after reset {}", at.step, at.resets);
-}
-
-std::string said_of(const run::Reflight& flight) {
-  std::string text = fmt::format("{} to {}, {}, compared at {} and {}\n", text_of(flight.from),
-                                 text_of(flight.to), plural(flight.heard, "command", "commands"),
-                                 plural(flight.hashes, "state hash", "state hashes"),
-                                 plural(flight.checkpoints, "checkpoint", "checkpoints"));
-  if (flight.differs_at) {
-    text += fmt::format("differs: the same at {}, not at {}{}\n", text_of(flight.same_until),
-                        text_of(*flight.differs_at),
-                        flight.differs_in.empty() ? "" : ": " + flight.differs_in);
-  } else if (flight.hashes + flight.checkpoints == 0) {
-    text += "nothing to compare with: the run ended before its first second\n";
-  } else {
-    text += "same bits\n";
-  }
-  return text;
-}
 
 int replay(const std::string& directory) {
   try {
@@ -59,7 +33,7 @@ int replay(const std::string& directory) {
       fmt::print(stderr, "adstar replay: {}\n", note);
     }
     Output output = Output::to_stdout();
-    output.buffer() = said_of(flight);
+    output.buffer() = reflight_text(flight);
     output.flush();
     return flight.differs_at || stop_requested() ? kFailed : kDone;
   } catch (const run::RunError& error) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "service/adstar/live_table.hpp"
+#include "service/adstar/reflight_text.hpp"
 #include "service/report/numbers.hpp"
 #include "service/report/row.hpp"
 
@@ -129,6 +130,24 @@ TEST(LiveTables, say_which_spacecraft_fell_silent) {
   const LiveTable table = table_of(1, now);
   EXPECT_EQ(table.text({200, 24}, now).find("silent"), std::string::npos);
   EXPECT_NE(table.text({200, 24}, now + std::chrono::seconds(10)).find("silent for 10 s"),
+            std::string::npos);
+}
+
+TEST(ReflightText, tells_a_run_that_was_short_from_one_whose_beginning_is_not_kept) {
+  run::Reflight flight;
+  flight.to = {0, 700};
+  EXPECT_EQ(reflight_text(flight),
+            "step 0 to step 700, 0 commands, compared at 0 state hashes and 0 checkpoints\n"
+            "nothing to compare with: the run ended before its first second\n");
+  flight.from = flight.to = {0, 5893};
+  EXPECT_NE(reflight_text(flight).find("what came before step 5893, its oldest checkpoint, is "
+                                       "not kept; [run] history = \"whole\""),
+            std::string::npos);
+  flight.hashes = 1;
+  EXPECT_NE(reflight_text(flight).find("compared at 1 state hash and 0 checkpoints\nsame bits\n"),
+            std::string::npos);
+  flight.differs_at = {0, 5893};
+  EXPECT_NE(reflight_text(flight).find("differs: the same at step 0, not at step 5893"),
             std::string::npos);
 }
 
