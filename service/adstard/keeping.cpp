@@ -56,8 +56,8 @@ void begin_run(Plan& plan, const Options& options) {
   }
   if (!plan.run && !directory.empty()) {
     plan.run = run::RunDirectory::create(
-        directory,
-        {random_word(), plan.text, plan.file, options.service, options.duration, options.standby});
+        directory, {random_word(), plan.text, plan.file, options.service, options.duration,
+                    options.standby, std::filesystem::absolute(options.memory)});
   }
 }
 
@@ -68,7 +68,6 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
   std::unique_ptr<run::RunLog> log;
   run::Flight flight{tick.gate(), tick.controls(), &tick.fleet(), scene.simulation.step_ns, {}};
   if (plan.run) {
-    run_ = plan.run->facts().run;
     const std::uint64_t fingerprint = run::scene_fingerprint(scene, plan.text);
     if (!options.resume.empty()) {
       go_on(plan, options.accept_loss, fingerprint, flight, segment->verdicts);
@@ -77,7 +76,9 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
     }
     tick.go_on_from(flight.at);
     if (!hot_) {
-      hot_ = run::HotJournalFile::create(run_);
+      run::HotJournalFile::remove(plan.run->facts());  // it is not gone on with
+      plan.run->move_memory_to(std::filesystem::absolute(options.memory));
+      hot_ = run::HotJournalFile::create(plan.run->facts());
     }
     log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, flight, next_number_,
                                         last_in_files_);
@@ -121,7 +122,7 @@ void Keeping::go_on(const Plan& plan, bool accept_loss, std::uint64_t fingerprin
 
 std::optional<run::HotJournalFile> Keeping::what_was_in_memory(bool accept_loss) const {
   try {
-    std::optional<run::HotJournalFile> hot = run::HotJournalFile::open(run_);
+    std::optional<run::HotJournalFile> hot = run::HotJournalFile::open(plan_.run->facts());
     if (!hot && !plan_.run->ended_well()) {
       spdlog::warn(
           "what the run had in memory is gone (the machine was started anew?): beats and commands "
@@ -163,7 +164,7 @@ void Keeping::finish(const runtime::Tick& tick) {
       spdlog::warn("{}; the next start will say that memory is gone, which it is not",
                    error.what());
     }
-    run::HotJournalFile::remove(run_);
+    run::HotJournalFile::remove(plan_.run->facts());
   }
 }
 

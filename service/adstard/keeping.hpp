@@ -52,7 +52,6 @@ class Keeping {
                 run::Flight& flight);
 
   const Plan& plan_;
-  std::uint64_t run_ = 0;
   std::uint64_t next_number_ = 1, last_in_files_ = 0;
   bool begins_with_checkpoint_ = false;  ///< its journal does not tell how it came there
   std::optional<run::HotJournalFile> hot_;

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "service/run/hot_journal_file.hpp"
+
 namespace adstar::adstard {
 
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
@@ -27,6 +29,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
          "follow the primary of this scene's [standby] in silence, and go on in its place when "
          "it is gone")
       ->excludes(resume);
+  app.add_option("--memory", options.memory,
+                 "a directory of a tmpfs, for the commands of a run that are not in a file yet")
+      ->capture_default_str()
+      ->check(CLI::Validator(
+          [](std::string& directory) { return run::why_not_in_memory(directory); }, ""));
   app.add_option("--service", options.service,
                  "what this daemon calls itself (default: the scene's name, or the host's)");
   app.add_option("--duration", options.duration,

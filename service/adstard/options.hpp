@@ -17,6 +17,7 @@ struct Options {
   std::string run;         ///< directory of a run to begin; empty: the scene's
   std::string resume;      ///< directory of a run to go on with
   bool accept_loss = false;
+  std::string memory = "/dev/shm";  ///< where the end of the run's journal is to be
   bool standby = false;
   std::string service;   ///< empty: the scene's
   std::string duration;  ///< empty: the scene's

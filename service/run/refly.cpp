@@ -78,7 +78,7 @@ std::string difference(const Checkpoint& checkpoint, const runtime::FleetState& 
 Reflight refly(const RunDirectory& directory, const scene::Scene& scene, std::uint64_t fingerprint,
                const std::function<bool(double)>& progress) {
   Reflight result;
-  const auto hot = HotJournalFile::open(directory.facts().run);
+  const auto hot = HotJournalFile::open(directory.facts());
   const auto checkpoints = whole_checkpoints(directory, scene, fingerprint, result.notes);
   const auto verdicts = std::make_unique<runtime::VerdictRing>();
   const auto answers = std::make_unique<runtime::ControlAnswerRing>();

@@ -56,6 +56,7 @@ RunFacts read_facts(const fs::path& path) {
     facts.service = json.at("service");
     facts.duration = json.at("duration");
     facts.standby = json.value("standby", false);
+    facts.memory = fs::path(json.at("memory").get<std::string>()).parent_path();
     facts.scene_text = text_of(read_bytes(path / "scene.toml"));
     return facts;
   } catch (const nlohmann::json::exception& error) {
@@ -65,6 +66,10 @@ RunFacts read_facts(const fs::path& path) {
 }
 
 }  // namespace
+
+fs::path memory_file(const RunFacts& facts) {
+  return facts.memory / fmt::format("adstar-{:016x}", facts.run);
+}
 
 RunDirectory RunDirectory::create(const fs::path& path, const RunFacts& facts) {
   std::error_code error;
@@ -79,14 +84,19 @@ RunDirectory RunDirectory::create(const fs::path& path, const RunFacts& facts) {
   }
   RunDirectory directory(path, facts);
   directory.hold();
-  const nlohmann::json json{{"run", fmt::format("{:016x}", facts.run)},
-                            {"scene_file", fs::absolute(facts.scene_file).string()},
-                            {"service", facts.service},
-                            {"duration", facts.duration},
-                            {"standby", facts.standby}};
   replace_file(path / "scene.toml", bytes_of(facts.scene_text));
-  replace_file(path / "run.json", bytes_of(json.dump(2) + "\n"));
+  directory.write_facts();
   return directory;
+}
+
+void RunDirectory::write_facts() const {
+  const nlohmann::json json{{"run", fmt::format("{:016x}", facts_.run)},
+                            {"scene_file", fs::absolute(facts_.scene_file).string()},
+                            {"service", facts_.service},
+                            {"duration", facts_.duration},
+                            {"standby", facts_.standby},
+                            {"memory", memory_file(facts_).string()}};
+  replace_file(path_ / "run.json", bytes_of(json.dump(2) + "\n"));
 }
 
 RunDirectory RunDirectory::open(const fs::path& path, Use use) {
@@ -100,6 +110,13 @@ RunDirectory RunDirectory::open(const fs::path& path, Use use) {
     directory.hold();
   }
   return directory;
+}
+
+void RunDirectory::move_memory_to(const fs::path& memory) {
+  if (memory != facts_.memory) {
+    facts_.memory = memory;
+    write_facts();
+  }
 }
 
 void RunDirectory::note_good_end() const { replace_file(path_ / "ended", {}); }

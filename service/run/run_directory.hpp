@@ -24,7 +24,11 @@ struct RunFacts {
   std::filesystem::path scene_file;  ///< where it was read: its tables are looked up beside it
   std::string service, duration;     ///< what the command line laid over it; empty: nothing
   bool standby = false;  ///< begun by a standby: it has its first state from its primary
+  std::filesystem::path memory = "/dev/shm";  ///< a tmpfs: where the end of its journal is
 };
+
+/// The end of its journal: a file of that tmpfs, by the name of the run.
+std::filesystem::path memory_file(const RunFacts& facts);
 
 struct Numbered {
   std::filesystem::path path;
@@ -42,6 +46,9 @@ class RunDirectory {
   const RunFacts& facts() const { return facts_; }
   const std::filesystem::path& path() const { return path_; }
 
+  /// From now on the end of its journal is there. Throws RunError.
+  void move_memory_to(const std::filesystem::path& memory);
+
   void note_good_end() const;
   bool ended_well() const;
   void forget_good_end() const;
@@ -58,6 +65,7 @@ class RunDirectory {
   RunDirectory(std::filesystem::path path, RunFacts facts)
       : path_(std::move(path)), facts_(std::move(facts)) {}
   void hold();
+  void write_facts() const;
 
   std::filesystem::path path_;
   RunFacts facts_;

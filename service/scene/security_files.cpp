@@ -24,10 +24,13 @@ std::string complaint_about(const SecurityFile& file, const std::string& path) {
                        file.file_name);
   }
   const auto mode = static_cast<unsigned>(info.st_mode & 07777U);
-  if (file.path == &SecurityFiles::private_key && (mode & 077U) != 0) {
+  // Or root's, for an account that has no file of its own: it may have its key by a group.
+  const bool handed_by_root = info.st_uid == 0 && geteuid() != 0 && (mode & 037U) == 0;
+  if (file.path == &SecurityFiles::private_key && (mode & 077U) != 0 && !handed_by_root) {
     return fmt::format(
         "{}: got '{}', which others can reach (mode {:04o}), expected a key that is its owner's "
-        "alone; try chmod 600, and a new key if somebody may have read this one",
+        "alone, or root's and a group's to read (0640); try chmod 600, and a new key if somebody "
+        "may have read this one",
         file.key, path, mode);
   }
   return {};

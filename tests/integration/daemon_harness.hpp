@@ -64,7 +64,7 @@ class TemporaryDirectory {
   static void forget_in_memory(const std::filesystem::path& run) {
     try {
       run::HotJournalFile::remove(
-          run::RunDirectory::open(run, run::RunDirectory::Use::look).facts().run);
+          run::RunDirectory::open(run, run::RunDirectory::Use::look).facts());
     } catch (const std::exception&) {
       // It was no run yet.
     }
@@ -82,9 +82,12 @@ class Daemon {
     start(words);
   }
   /// Goes on with a run.
-  static std::unique_ptr<Daemon> resuming(const std::filesystem::path& run) {
+  static std::unique_ptr<Daemon> resuming(const std::filesystem::path& run,
+                                          const std::vector<std::string>& more = {}) {
     std::unique_ptr<Daemon> daemon(new Daemon);
-    daemon->start({"--resume", run.string()});
+    std::vector<std::string> words{"--resume", run.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    daemon->start(words);
     return daemon;
   }
   ~Daemon() {

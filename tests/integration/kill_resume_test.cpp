@@ -153,12 +153,56 @@ TEST(KillResume, says_that_memory_is_gone_only_when_it_is) {
     daemon->signal(SIGKILL);
     EXPECT_EQ(daemon->exit_code(), -SIGKILL);
   }
-  run::HotJournalFile::remove(
-      run::RunDirectory::open(run, run::RunDirectory::Use::look).facts().run);
+  run::HotJournalFile::remove(run::RunDirectory::open(run, run::RunDirectory::Use::look).facts());
   const auto daemon = Daemon::resuming(run);
   ASSERT_TRUE(flies()) << daemon->log();
   EXPECT_TRUE(says_gone(*daemon)) << daemon->log();
   EXPECT_EQ(daemon->stop(), 0);
+}
+
+/// What it keeps there is found by whoever goes on with the run, also without being told where.
+TEST(KillResume, keeps_its_memory_where_it_is_told_to) {
+  const auto corner = testing::private_corner();
+  const TemporaryDirectory home;
+  const std::filesystem::path run = home.path() / "run";
+  std::string memory = "/dev/shm/adstar-memory.XXXXXX";
+  ASSERT_NE(mkdtemp(memory.data()), nullptr);
+  const auto flies = [&] {
+    GroundStation ground(corner);
+    return ground.until([&] { return ground.momentum.contains("sat1"); });
+  };
+  const auto kept = [&] { return !std::filesystem::is_empty(memory); };
+  {
+    Daemon daemon(kept_scene(corner, run), {"--memory", memory});
+    ASSERT_TRUE(flies()) << daemon.log();
+    EXPECT_TRUE(kept());
+    daemon.signal(SIGKILL);
+    ASSERT_EQ(daemon.exit_code(), -SIGKILL);
+  }
+  {
+    const auto daemon = Daemon::resuming(run);
+    ASSERT_TRUE(flies()) << daemon->log();
+    EXPECT_EQ(daemon->log().find("is gone"), std::string::npos) << daemon->log();
+    EXPECT_EQ(daemon->stop(), 0);
+  }
+  EXPECT_FALSE(kept());
+  {
+    const auto daemon = Daemon::resuming(run);
+    ASSERT_TRUE(flies()) << daemon->log();
+    EXPECT_FALSE(kept()) << "it ended in good order; now it is where this one was told";
+    EXPECT_EQ(daemon->stop(), 0);
+  }
+  std::filesystem::remove(memory);
+}
+
+TEST(KillResume, memory_that_is_none_is_refused_before_anything_is_begun) {
+  const TemporaryDirectory home;
+  const std::filesystem::path run = home.path() / "run";
+  Daemon daemon(kept_scene(testing::private_corner(), run), {"--memory", "/proc"});
+  EXPECT_EQ(daemon.exit_code(), 2);
+  EXPECT_NE(daemon.log().find("--memory: got '/proc', which is no tmpfs"), std::string::npos)
+      << daemon.log();
+  EXPECT_FALSE(std::filesystem::exists(run));
 }
 
 TEST(KillResume, a_directory_in_use_or_used_is_refused_with_the_remedy) {

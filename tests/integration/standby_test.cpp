@@ -36,7 +36,7 @@ std::string pair_scene(const dds::ParticipantOptions& where) {
 /// What the run in that directory heard. Where it differs from one before it, it is the later one that flew on.
 void add_records(Records& all, const std::filesystem::path& path) {
   const auto directory = run::RunDirectory::open(path, run::RunDirectory::Use::look);
-  const auto hot = run::HotJournalFile::open(directory.facts().run);
+  const auto hot = run::HotJournalFile::open(directory.facts());
   std::uint64_t from = 1;
   for (const run::Numbered& file : directory.checkpoints()) {
     from =

@@ -26,7 +26,7 @@ clean_up() {
   [[ -z "$(jobs -pr)" ]] || kill -INT $(jobs -pr) 2> /dev/null || true
   wait || true
   ip netns del "$netns" 2> /dev/null || true
-  umount -R "$root/proc" "$root/dev/shm" "$root/packages" 2> /dev/null || true
+  umount -R "$root/proc" "$root/dev/shm" "$root/run" "$root/packages" 2> /dev/null || true
   rm -rf --one-file-system "$work"
 }
 trap clean_up EXIT
@@ -44,12 +44,14 @@ make_root "$root" "${2:-}"
 mount -t proc proc "$root/proc"
 mkdir -p "$root/dev/shm"
 mount -t tmpfs -o mode=1777 tmpfs "$root/dev/shm"
+mount -t tmpfs -o mode=755 tmpfs "$root/run"
 mount --bind "$work/debs" "$root/packages"
 
 ip netns add "$netns" || fail "a network namespace"
 ip -n "$netns" link set lo up
 inside() { chroot "$root" env APT_CONFIG=/packages/apt.conf "$@"; }
-flying() { ip netns exec "$netns" chroot --userspec=adstar:adstar "$root" "$@"; }  # as the unit's account, on a wire of its own
+account=61184  # as systemd makes one for the unit
+flying() { ip netns exec "$netns" chroot --userspec=$account:$account "$root" "$@"; }  # on a wire of its own
 get() { inside apt-get "$@" >> "$work/apt.log" 2>&1 || fail "apt-get $*"; }
 as_said() {  # section of deploy/README.md, directory of packages
   local lines
@@ -61,7 +63,7 @@ paths() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./
   -o -path ./var/lib/apt -o -path ./tmp \) -prune -o -print | sort); }
 get update
 paths > "$work/before"
-cp "$root/etc/passwd" "$work/passwd"
+cp "$root"/etc/{passwd,group} "$work/"
 proved "a bare Debian $(cat "$root/etc/debian_version") of $(inside dpkg-query -f '.\n' -W | wc -l) packages"
 
 # ---- installed ----------------------------------------------------------------------------------------
@@ -78,15 +80,15 @@ proved "adstar checks every scene that came with it, and propagates"
 
 # ---- it flies -----------------------------------------------------------------------------------------
 printf '\n[service]\nname = "mine"  # a change of somebody\n' >> "$root/etc/adstar/demo.toml"
-install -d -o "$(inside id -u adstar)" -g "$(inside id -g adstar)" -m 700 "$root/var/lib/adstar"  # as StateDirectory= does
-unit() { flying env CONFIGURATION_DIRECTORY=/etc/adstar STATE_DIRECTORY=/var/lib/adstar /usr/lib/adstar/fly "$1"; }
+install -d -o $account -g $account -m 700 "$root/var/lib/adstar" "$root/run/adstar"  # as StateDirectory= and RuntimeDirectory= do
+unit() { flying env CONFIGURATION_DIRECTORY=/etc/adstar STATE_DIRECTORY=/var/lib/adstar RUNTIME_DIRECTORY=/run/adstar /usr/lib/adstar/fly "$1"; }
 unit demo 2> "$work/adstard.log" &
 listed() { flying adstar list --timeout 1s 2> /dev/null | grep -q "^service 'mine': running"; }
 await 30 "the daemon is on the bus" listed
 samples() { flying adstar monitor sat1 --for 2s --format csv 2> /dev/null | grep -c sat1 || true; }
 heard=$(samples)
 ((heard > 10)) || fail "adstar monitor heard $heard samples in 2 s"
-proved "what adstar@demo starts flies /etc/adstar/demo.toml as its own account; adstar monitor hears $heard samples in 2 s"
+proved "what adstar@demo starts flies /etc/adstar/demo.toml as an account of no name; adstar monitor hears $heard samples in 2 s"
 flying adstar torque sat1 --torque-n-m 0 0 0.05 --for 100ms > "$work/verdict.log" 2>&1 || fail "a command"
 proved "it obeys: $(head -n 1 "$work/verdict.log")"
 
@@ -124,7 +126,8 @@ await 20 "the daemon ends" gone
 unit demo 2> "$work/resumed.log" &
 await 30 "the run goes on" grep -q 'the run goes on at step' "$work/resumed.log"
 await 30 "the daemon is on the bus" listed
-kill -KILL "$(child)"  # what it leaves in memory is for the purge
+kill -KILL "$(child)"
+[[ "$(ls "$root/run/adstar")" == adstar-* ]] || fail "it has left nothing in /run/adstar for the purge"
 kill -INT "$(pgrep -x adstar)"
 await 20 "the daemon ends" gone
 proved "the new version goes on with the run: $(grep -o 'the run goes on at step.*' "$work/resumed.log")"
@@ -144,7 +147,8 @@ paths > "$work/after"
 # The files of accounts keep a copy of what they were before.
 left=$(diff "$work/before" "$work/after" | grep '^[<>]' | grep -vE '^> \./etc/(passwd|shadow|group|gshadow)-$' || true)
 [[ -z "$left" ]] || fail "other paths than before: $left"
-account=$(diff "$work/passwd" "$root/etc/passwd" | grep '^[<>]' || true)
-[[ "$account" == "> adstar:"*nologin ]] || fail "accounts: $account"
-[[ -z "$(ls "$root/dev/shm")" ]] || fail "left in /dev/shm: $(ls "$root/dev/shm")"
-proved "purged: every path is as before; what stays is the locked account adstar"
+others=$({ diff "$work/passwd" "$root/etc/passwd"; diff "$work/group" "$root/etc/group"; } | grep '^[<>]' || true)
+[[ "$others" == "> adstar-keys:"* && "$others" != *$'\n'* ]] || fail "accounts: $others"
+in_memory=$(find "$root/dev/shm" "$root/run" -mindepth 1)
+[[ -z "$in_memory" ]] || fail "left in memory: $in_memory"
+proved "purged: every path is as before; what stays is the group of keys"

@@ -27,7 +27,7 @@ apt_settings
 make_root "$root" "${2:-}"
 cp -r "$work/debs/." "$source"/tests/support/{proof,typed}.sh "$source/tests/package/booted_inside.sh" "$source/deploy/README.md" "$root/packages/"
 # What the packages depend on is brought now: inside there is no network.
-chroot "$root" sh -c 'apt-get -y -qq update && apt-get -y -qq --no-install-recommends install systemd systemd-sysv dbus procps &&
+chroot "$root" sh -c 'apt-get -y -qq update && apt-get -y -qq --no-install-recommends install systemd systemd-sysv dbus procps openssl &&
   apt-get -y -qq --no-install-recommends --download-only install /packages/first/*.deb' > "$work/apt.log" 2>&1 || fail "systemd in the root"
 cat > "$root/etc/systemd/system/tried.service" <<'UNIT'
 [Unit]

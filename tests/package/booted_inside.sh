@@ -33,8 +33,9 @@ proved "the units are rated ${rated[*]}"
 systemctl enable --now --quiet adstar@demo || fail "start: $(journal demo | tail -n 20)"
 await 20 "the daemon is on the bus" listed "$name"
 first=$(pid_of demo)
-[[ "$(stat -c %U "/proc/$first")" == adstar ]] || fail "it runs as $(stat -c %U "/proc/$first")"
-proved "adstar@demo flies as adstar: $(systemctl show --property StatusText --value adstar@demo)"
+account=$(stat -c %u "/proc/$first")
+((account >= 61184 && account <= 65519)) && ! grep ":$account:" /etc/passwd || fail "it runs as $account, which is no dynamic account"
+proved "adstar@demo flies as $account: $(systemctl show --property StatusText --value adstar@demo)"
 adstar timing --for 2s > /packages/timing 2>&1 || true
 force=$(grep -m 1 -o 'in force: .*' /packages/timing) || fail "adstar timing: $(cat /packages/timing)"
 if prlimit --rtprio=99:99 true 2> /dev/null; then
@@ -48,6 +49,19 @@ kill -KILL "$first"
 await 20 "systemd starts it again" another "$first"
 says demo 'the run goes on at step' || fail "it did not go on with its run"
 proved "killed, it is started again: $(journal demo | grep -m 1 -o 'the run goes on at step.*')"
+
+mkdir -p /run/systemd/system/adstar@demo.service.d
+printf '[Service]\nRestart=no\n' > /run/systemd/system/adstar@demo.service.d/fallen.conf
+systemctl daemon-reload
+kill -KILL "$(pid_of demo)"
+await 10 "it has fallen" systemctl is-failed --quiet adstar@demo
+[[ "$(ls /run/adstar/)" == adstar-* ]] || fail "what was in memory went with the account: $(ls -R /run/adstar/)"
+rm -r /run/systemd/system/adstar@demo.service.d
+systemctl daemon-reload
+systemctl start adstar@demo
+await 20 "it is on the bus again" listed "$name"
+! says demo 'is gone' || fail "something was lost"
+proved "fallen for good, its account is gone, and what it had in memory is not"
 
 second=$(pid_of demo)
 kill -STOP "$second"
@@ -79,6 +93,16 @@ await 20 "the primary comes back and is refused" failed_with adstar@one 3
 listed pair || fail "nobody flies what the primary flew"
 proved "a unit with standby.conf follows and takes over; the primary comes back, is refused, and that is not tried again"
 
+as_said "Two machines" "^cp|make.sh|^mkdir|^chown"
+sed -i 's/"eth0"/"lo"/; s/^\[simulation\]/[budget]\nadmission = "warn"\n&/' /etc/adstar/plant.toml  # which is the one wire here
+systemctl start adstar@plant || fail "$(journal plant | tail -n 20)"
+secured() { adstar list --timeout 1s --domain 7 --security ~/keys/commander 2> /dev/null | grep "^service 'plant': running" > /dev/null; }
+await 20 "who has a key hears it" secured
+[[ "$(stat -c '%U %a' /etc/adstar/keys/daemon/private_key.pem)" == "root 640" ]] || fail "the key: $(ls -l /etc/adstar/keys/daemon)"
+! adstar list --timeout 1s --domain 7 > /dev/null 2>&1 || fail "who has none hears it too"
+systemctl stop adstar@plant
+proved "with root's keys, read by their group, it flies on a secured bus"
+
 systemctl start adstar-dashboard || fail "the dashboard"
 metrics() { { exec 3<> /dev/tcp/127.0.0.1/8765 && printf 'GET /metrics HTTP/1.1\r\nHost: 127.0.0.1:8765\r\nConnection: close\r\n\r\n' >&3 && cat <&3; } 2> /dev/null > /packages/metrics; grep -q '^adstar_up{.*} 1' /packages/metrics; }
 await 20 "metrics" metrics
@@ -99,11 +123,12 @@ says two 'the run goes on at step' || fail "the one that took over did not go on
 await 20 "the one that took over is back" listed pair
 proved "the one that took over is made the primary: $(journal two | grep -m 1 -o 'the run goes on at step.*')"
 
-rm /etc/adstar/{one,two}.toml  # somebody's own
+rm -r /etc/adstar/{one,two,plant}.toml /etc/adstar/keys ~/keys  # somebody's own
 rmdir /etc/systemd/system/adstar@two.service.d
 apt-get purge adstar adstar-dashboard libadstar-dev > /packages/log 2>&1 || fail "apt-get purge: $(tail -n 20 /packages/log)"
 [[ "$(systemctl is-active adstar@demo || true)" != active && -z "$(pgrep 'adstar' || true)" ]] || fail "it flies after the purge"
 left=$(find / -xdev -name '*adstar*' -not -path '/packages/*' -not -path '/proc/*' -not -path '/var/cache/*' -not -path '/var/log/*' -not -path '/var/lib/systemd/*')
-[[ -z "$left" && -z "$(ls /dev/shm)" ]] || fail "left: $left $(ls /dev/shm)"
+left+=$(find /run /dev/shm -name '*adstar*')
+[[ -z "$left" ]] || fail "left: $left"
 proved "purged: it was ended, and nothing of it is left"
 echo "all of it"

@@ -47,23 +47,23 @@ fly --volume "$work/plain:/etc/adstar:ro" || fail "${command[*]}"
 grep -q '2000 steps of 1ms' "$work/log" || fail "it took other steps"
 proved "'${command[*]}' flies the demo as $user: $(grep -o '2000 steps.*' "$work/log")"
 
-# As deploy/README.md has it, with keys: an account of the machine, its scenes and its runs.
-account=4242
+# As deploy/README.md has it, with keys, which are root's and a group's. buildah has no --group-add: the group is the one it runs under.
+keys=4242
 mkdir "$work/secured"
 bash "$source/deploy/security/make.sh" "$work/keys" > /dev/null
 cp -r "$work/keys/daemon" "$work/secured/keys"
+chown -R root:$keys "$work/secured/keys" && chmod -R u=rwX,g=rX,o= "$work/secured/keys"
 {
   cat "$work/plain/demo.toml"
   sed -n '/^\[dds.security\]/,/^$/s/keys\/daemon/keys/p; /^\[dds.security\]/p' "$source/deploy/scenes/two_machines.toml"
 } > "$work/secured/demo.toml"
-chown -R $account:$account "$work/secured/keys"
-install -d -o $account -g $account -m 700 "$work/runs"
 container=$(in_store from localhost/adstar)  # the other one has a run of its own where these are mounted
+install -d -o "$(in_store run "$container" -- id -u)" -m 700 "$work/runs"
 mine=(--volume "$work/runs:/var/lib/adstar" --volume "$work/secured:/etc/adstar:ro")  # buildah 1.28 mounts over a VOLUME what comes first alone
-! fly "${mine[@]}" || fail "$user of the image has read keys of somebody else's"
+! fly "${mine[@]}" || fail "$user has read keys that are neither its own nor its group's"
 grep -q 'private_key: got .*cannot be read' "$work/log" || fail "somebody else's keys"
-fly --user $account:$account "${mine[@]}" || fail "as the account of the keys"
+fly --user $user:$keys "${mine[@]}" || fail "in the group of the keys"
 grep -q '2000 steps of 1ms' "$work/log" || fail "it took other steps"
-fly --user $account:$account "${mine[@]}" || fail "the second time"
+fly --user $user:$keys "${mine[@]}" || fail "the second time"
 grep -q 'the run goes on at step 2000' "$work/log" || fail "it did not go on"
-proved "with keys, as their account, it flies, and the next container goes on: $(grep -o 'the run goes on at step.*' "$work/log")"
+proved "with keys, in their group, it flies, and the next container goes on: $(grep -o 'the run goes on at step.*' "$work/log")"

@@ -64,7 +64,7 @@ for unit in "$root"/usr/lib/systemd/system/*; do
     [[ -x "$root$program" ]] || fail "$unit starts $program, which is not in the package"
   done
 done
-[[ -f "$root/usr/lib/sysusers.d/adstar.conf" && -f "$root/usr/share/adstar/idl/command.idl" ]] || fail "account or IDL missing"
+[[ -f "$root/usr/lib/sysusers.d/adstar.conf" && -f "$root/usr/share/adstar/idl/command.idl" ]] || fail "group or IDL missing"
 [[ -f "$root/usr/share/cmake/adstar/adstarConfig.cmake" && -f "$root/usr/include/adstar/propagator.hpp" ]] ||
   fail "libadstar-dev has no headers or no adstarConfig.cmake"
 proved "units, settings, headers and IDL are in place, and all that is outside /usr is a setting"

@@ -24,7 +24,7 @@ class KilledRun : public testing::Test {
     run_ = (static_cast<std::uint64_t>(getpid()) << 32) + ++next;
   }
   ~KilledRun() override {
-    HotJournalFile::remove(run_);
+    HotJournalFile::remove(facts_of_memory());
     std::error_code ignored;
     fs::remove_all(path_, ignored);
   }
@@ -38,6 +38,8 @@ class KilledRun : public testing::Test {
     }
     return found;
   }
+
+  RunFacts facts_of_memory() const { return {.run = run_}; }
 
   static void flip_a_bit(const fs::path& file, std::int64_t at) {
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);

@@ -77,7 +77,7 @@ class RecordedFlight {
       : seed_(seed) {
     fleet_.keep_start();
     directory_.emplace(run::RunDirectory::create(path, {run, "text", "scene.toml", "", ""}));
-    hot_.emplace(run::HotJournalFile::create(run));
+    hot_.emplace(run::HotJournalFile::create(directory_->facts()));
     start_log(1, 0);
   }
 
@@ -86,15 +86,14 @@ class RecordedFlight {
       : seed_(seed) {
     fleet_.keep_start();
     directory_.emplace(run::RunDirectory::open(path, run::RunDirectory::Use::fly));
-    const std::uint64_t run = directory_->facts().run;
-    hot_ = run::HotJournalFile::open(run);
+    hot_ = run::HotJournalFile::open(directory_->facts());
     run::Flight flight{gate_, controls_, &fleet_, scene_.simulation.step_ns, {}};
     resumed =
         run::resume(*directory_, hot_ ? &**hot_ : nullptr, scene_, 7, accept_loss, flight, *ring_);
     at_ = flight.at;
     if (!hot_ || !resumed.records.gap.empty()) {
       hot_.reset();
-      hot_.emplace(run::HotJournalFile::create(run));
+      hot_.emplace(run::HotJournalFile::create(directory_->facts()));
       (*hot_)->step.store(at_.step);
     }
     start_log(resumed.records.next_number, resumed.records.last_in_files);

@@ -140,7 +140,7 @@ TEST_F(KilledRun, that_another_version_wrote_is_refused_and_left_as_it_is) {
     flight->checkpoint();
   }
   flight.reset();
-  HotJournalFile::remove(run_);
+  HotJournalFile::remove(facts_of_memory());
   const auto files = [&] {
     const auto directory = RunDirectory::open(path_, RunDirectory::Use::look);
     std::vector<fs::path> all;
@@ -185,7 +185,7 @@ TEST_F(KilledRun, refuses_to_begin_anew_where_nothing_can_be_read) {
   flight->run_to(100);
   flight->checkpoint();
   flight.reset();
-  HotJournalFile::remove(run_);
+  HotJournalFile::remove(facts_of_memory());
   flip_a_bit(newest("checkpoint-"), 200);
   for (fs::path journal = newest("journal-"); !journal.empty(); journal = newest("journal-")) {
     fs::remove(journal);
@@ -202,7 +202,7 @@ TEST_F(KilledRun, refuses_a_last_journal_of_which_nothing_is_known) {
   flight->run_to(150);
   flight->log().move_records();
   flight.reset();
-  HotJournalFile::remove(run_);
+  HotJournalFile::remove(facts_of_memory());
   flip_a_bit(newest("journal-"), kFormat);
   EXPECT_THROW(flight.emplace(9, path_), RunError);
   flight.emplace(9, path_, true);
@@ -214,19 +214,43 @@ TEST_F(KilledRun, does_not_take_memory_of_another_version_for_none) {
   flight->run_to(20);
   flight->hot().layout += 1;
   flight.reset();
-  EXPECT_THROW(HotJournalFile::open(run_), RunError);
-  HotJournalFile::remove(run_);
-  EXPECT_FALSE(HotJournalFile::open(run_));
-  HotJournalFile::create(run_)->run = run_ + 1;
-  EXPECT_THROW(HotJournalFile::open(run_), RunError);
+  EXPECT_THROW(HotJournalFile::open(facts_of_memory()), RunError);
+  HotJournalFile::remove(facts_of_memory());
+  EXPECT_FALSE(HotJournalFile::open(facts_of_memory()));
+  HotJournalFile::create(facts_of_memory())->run = run_ + 1;
+  EXPECT_THROW(HotJournalFile::open(facts_of_memory()), RunError);
+}
+
+TEST_F(KilledRun, says_where_its_memory_is_and_goes_on_with_it_from_there) {
+  auto directory = RunDirectory::create(path_, {run_, "text", "scene.toml", "", ""});
+  EXPECT_EQ(memory_file(directory.facts()).parent_path(), "/dev/shm");
+  std::string elsewhere = "/dev/shm/adstar-memory.XXXXXX";
+  ASSERT_NE(mkdtemp(elsewhere.data()), nullptr);
+  directory.move_memory_to(elsewhere);
+  EXPECT_FALSE(HotJournalFile::open(directory.facts()));
+  HotJournalFile::create(directory.facts())->step.store(7);
+  EXPECT_FALSE(HotJournalFile::open(facts_of_memory())) << "it is in /dev/shm itself";
+  const RunFacts found = RunDirectory::open(path_, RunDirectory::Use::look).facts();
+  EXPECT_EQ(memory_file(found).parent_path(), elsewhere);
+  const auto hot = HotJournalFile::open(found);
+  ASSERT_TRUE(hot);
+  EXPECT_EQ((*hot)->step.load(), 7U);
+  HotJournalFile::remove(found);
+  EXPECT_TRUE(fs::remove(elsewhere)) << "something is left";
+}
+
+TEST(Memory, is_refused_where_there_is_none) {
+  EXPECT_EQ(why_not_in_memory("/dev/shm"), "");
+  EXPECT_NE(why_not_in_memory("/dev/shm/none").find("No such file"), std::string::npos);
+  EXPECT_NE(why_not_in_memory("/proc").find("is no tmpfs"), std::string::npos);
 }
 
 TEST_F(KilledRun, does_not_take_memory_that_cannot_be_opened_for_none) {
-  const fs::path there = fmt::format("/dev/shm/adstar-{:016x}", run_);
+  const fs::path there = memory_file(facts_of_memory());
   ASSERT_TRUE(fs::create_directory(there));  // which not even root opens to write
-  EXPECT_THROW(HotJournalFile::open(run_), std::system_error);
+  EXPECT_THROW(HotJournalFile::open(facts_of_memory()), std::system_error);
   fs::remove(there);
-  EXPECT_FALSE(HotJournalFile::open(run_));
+  EXPECT_FALSE(HotJournalFile::open(facts_of_memory()));
 }
 
 TEST_F(KilledRun, without_its_memory_goes_on_from_what_the_disk_has) {
@@ -237,7 +261,7 @@ TEST_F(KilledRun, without_its_memory_goes_on_from_what_the_disk_has) {
   flight->log().move_records();
   flight->run_to(170);
   flight.reset();
-  HotJournalFile::remove(run_);  // the machine was started anew
+  HotJournalFile::remove(facts_of_memory());  // the machine was started anew
   flight.emplace(2, path_);
   EXPECT_GE(flight->step(), 100U);
   EXPECT_LE(flight->step(), 150U);
@@ -256,7 +280,7 @@ TEST_F(KilledRun, without_its_memory_goes_on_from_the_last_step_that_left_a_dige
   flight->log().move_records();
   flight->run_to(170);
   flight.reset();
-  HotJournalFile::remove(run_);
+  HotJournalFile::remove(facts_of_memory());
   flight.emplace(2, path_);
   EXPECT_EQ(flight->step(), 100 + 3 * runtime::DigestBlock::kMost);
 }

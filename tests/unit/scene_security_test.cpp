@@ -89,5 +89,28 @@ TEST_F(SecurityFilesOnDisk, are_refused_when_anybody_else_can_reach_the_key) {
   EXPECT_TRUE(complaints_about(files_).empty());
 }
 
+/// Of an account that is there only while a unit runs nothing can be its own.
+TEST_F(SecurityFilesOnDisk, are_good_when_the_key_is_roots_and_read_by_a_group) {
+  if (geteuid() != 0) {
+    GTEST_SKIP() << "only root hands out root's keys";
+  }
+  constexpr uid_t kSomebody = 61184;
+  const auto complaints_of_somebody = [&](mode_t mode, uid_t owner) {
+    EXPECT_EQ(chown(files_.private_key.c_str(), owner, kSomebody), 0);
+    EXPECT_EQ(chmod(files_.private_key.c_str(), mode), 0);
+    EXPECT_EQ(setegid(kSomebody), 0);
+    EXPECT_EQ(seteuid(kSomebody), 0);
+    const std::size_t complaints = complaints_about(files_).size();
+    EXPECT_EQ(seteuid(0), 0);
+    EXPECT_EQ(setegid(0), 0);
+    return complaints;
+  };
+  std::filesystem::permissions(directory_, std::filesystem::perms(0755));
+  EXPECT_EQ(complaints_of_somebody(0640, 0), 0U);
+  EXPECT_EQ(complaints_of_somebody(0644, 0), 1U) << "everybody reads it";
+  EXPECT_EQ(complaints_of_somebody(0660, 0), 1U) << "its group writes it";
+  EXPECT_EQ(complaints_of_somebody(0640, kSomebody), 1U) << "it is not root who says so";
+}
+
 }  // namespace
 }  // namespace adstar::scene
