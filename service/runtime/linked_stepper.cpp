@@ -66,7 +66,7 @@ std::unique_ptr<multibody::LinkedFlight<double>> make_linked(const scene::Spacec
         return std::holds_alternative<GravityGradient<double>>(torque);
       });
   if (gravity) {
-    flight->tide = craft.orbit;
+    flight->tide = {*craft.orbit};
   }
   return flight;
 }

@@ -181,7 +181,7 @@ multibody::LinkedFlight<Wide> widened_flight(const scene::Spacecraft& craft) {
   flight.first_torque = craft.first_torque;
   for (const Torque<double>& torque : craft.torques) {
     if (std::holds_alternative<GravityGradient<double>>(torque)) {
-      flight.tide = widened(*craft.orbit);
+      flight.tide = {widened(*craft.orbit)};
     }
   }
   return flight;

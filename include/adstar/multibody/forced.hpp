@@ -17,6 +17,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -53,6 +54,16 @@ struct CoordinateMotor {
   }
 };
 
+/// Whose gravity stretches linked bodies.
+template <class T>
+struct Tide {
+  using Scalar = T;
+  using Around = OrbitPosition<T>;
+  Orbit<T> orbit;
+  Around around_at(const T& t_s) const { return position_at(orbit, t_s); }
+  bool is_around_too(const Tide& other) const { return this == &other; }
+};
+
 /// Everything that one spacecraft of linked bodies flies with; all memory is made here.
 template <class T>
 struct LinkedFlight {
@@ -71,7 +82,7 @@ struct LinkedFlight {
   std::vector<std::array<T, 3>> motor_torques;  ///< by joint, in force over the segment
   std::vector<std::size_t> first_torque;        ///< of each body among the torques, and their end
   std::vector<adstar::detail::Segment<T>> segments;
-  std::optional<Orbit<T>> tide;  ///< none: no tide
+  std::optional<Tide<T>> tide;  ///< none: no tide
 };
 
 /// Sets motor_torques to what is in force at t_ns.
@@ -103,6 +114,12 @@ bool pushes(const Torque<T>& torque) {
   return std::visit([]<class Model>(const Model&) { return Pushes<Model>; }, torque);
 }
 
+/// A model of which a part is the same for all bodies of a spacecraft.
+template <class Model>
+concept Surrounds = requires(const Model& model, const Quat<typename Model::Scalar>& q_IB) {
+  model.torque_B(typename Model::Around{}, q_IB);
+};
+
 /// What is around a spacecraft at a stage, worked out once for all of its bodies.
 template <class Model>
 class Around {
@@ -129,8 +146,9 @@ struct FlightLoad {
   std::span<const Torque<T>> torques;
   T t_s{};
   bool pushed = std::any_of(torques.begin(), torques.end(), pushes<T>);
-  mutable Around<Aerodynamic<T>> air{};
-  mutable Around<SolarPressure<T>> light{};
+  mutable std::tuple<Around<Aerodynamic<T>>, Around<SolarPressure<T>>, Around<GravityGradient<T>>>
+      surroundings{};
+  mutable Around<Tide<T>> tide{};
 
   bool keeps_centre() const { return pushed; }
 
@@ -149,10 +167,10 @@ struct FlightLoad {
                                           segment, rotate_inverse(motion.q_IB, motion.omega_I));
     }
     if (flight.tide) {
-      const OrbitPosition<T> place = position_at(*flight.tide, now_s);
+      const OrbitPosition<T>& place = tide.at(*flight.tide, now_s);
       const T& r = place.distance_m;
       const T strength =
-          flight.assembly.bodies()[stage.body].mass * (gravity_of(*flight.tide) / r / r / r);
+          flight.assembly.bodies()[stage.body].mass * (gravity_of(flight.tide->orbit) / r / r / r);
       const Vec3<T>& u = place.direction_I;
       load.force_I = load.force_I + strength * (T(3) * dot(motion.x_I, u) * u - motion.x_I);
     }
@@ -177,24 +195,19 @@ struct FlightLoad {
     for (const Torque<T>& torque : own) {
       std::visit(
           [&]<class Model>(const Model& model) {
-            if constexpr (Pushes<Model>) {
-              const typename Model::Around& around = around_of(model, now_s);
+            if constexpr (Surrounds<Model>) {
+              const typename Model::Around& around =
+                  std::get<Around<Model>>(surroundings).at(model, now_s);
               load.torque_B = load.torque_B + model.torque_B(around, q_IB);
-              load.force_I = load.force_I + model.force_I(around, q_IB);
+              if constexpr (Pushes<Model>) {
+                load.force_I = load.force_I + model.force_I(around, q_IB);
+              }
             } else if constexpr (requires { model.at(now_s, q_IB); }) {
               load.torque_B = load.torque_B + model.at(now_s, q_IB);
             }
           },
           torque);
     }
-  }
-
-  const typename Aerodynamic<T>::Around& around_of(const Aerodynamic<T>& m, const T& now_s) const {
-    return air.at(m, now_s);
-  }
-  const typename SolarPressure<T>::Around& around_of(const SolarPressure<T>& m,
-                                                     const T& now_s) const {
-    return light.at(m, now_s);
   }
 };
 

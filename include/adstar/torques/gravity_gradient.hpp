@@ -13,6 +13,7 @@ namespace adstar {
 
 template <class T>
 struct GravityGradient {
+  using Scalar = T;
   static constexpr const char* kName = "gravity_gradient";
   static constexpr Frame frame = Frame::body;
   Orbit<T> orbit;
@@ -24,9 +25,16 @@ struct GravityGradient {
     spread_kg_m2 = body.moments()[2] - body.moments()[0];
   }
 
+  /// What is there whatever the attitude.
+  using Around = OrbitPosition<T>;
+  Around around_at(const T& t_s) const { return position_at(orbit, t_s); }
+  /// Whether that is the same for the other, whatever its inertia.
+  bool is_around_too(const GravityGradient& other) const { return orbit == other.orbit; }
+
   /// `q_IB`: of any length but zero.
-  Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const {
-    const OrbitPosition<T> position = position_at(orbit, t_s);
+  Vec3<T> at(const T& t_s, const Quat<T>& q_IB) const { return torque_B(around_at(t_s), q_IB); }
+
+  Vec3<T> torque_B(const Around& position, const Quat<T>& q_IB) const {
     const Vec3<T> u_B = rotate_inverse(normalised(q_IB), position.direction_I);
     return strength(position.distance_m) * cross(u_B, inertia_B * u_B);
   }
