@@ -63,7 +63,7 @@ void Recorder::keep_up() {
     if (snapshot_.ready()) {
       take_snapshot();
     }
-    if (failing_) {
+    if (failing_ && !owes_checkpoint_) {
       failing_ = false;
       spdlog::info("the run is recorded again; nothing was lost");
     }
@@ -72,7 +72,7 @@ void Recorder::keep_up() {
       failing_ = true;
       spdlog::error(
           "the run cannot be recorded: {}; the tick goes on, commands are refused once {} of them "
-          "wait to be written: make room",
+          "wait to be written",
           error.what(), runtime::HotJournal::Ring::kCapacity);
     }
   }
@@ -94,7 +94,9 @@ void Recorder::take_snapshot() {
   log_->note_hash(at, hash);
   unsynced_ = true;
   if (at >= next_checkpoint_) {
+    owes_checkpoint_ = true;  // the next snapshot is in time for it
     log_->write_checkpoint(at, state, keep_all_journals_);
+    owes_checkpoint_ = false;
     next_checkpoint_ = {at.resets, at.step + checkpoint_every_steps_};
   }
 }

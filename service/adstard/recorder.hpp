@@ -50,6 +50,7 @@ class Recorder {
   bool keep_all_journals_;
   bool failing_ = false;
   bool unsynced_ = false;
+  bool owes_checkpoint_ = false;
   mutable std::mutex mutex_;  ///< of the three below; the tick never comes near it
   std::condition_variable ended_;
   bool ending_ = false;

@@ -14,7 +14,9 @@ namespace {
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& path) {
   const int error = errno;
-  throw RunError(fmt::format("{}: {}: {}", path.string(), what, std::strerror(error)));
+  const bool full = error == ENOSPC || error == EDQUOT;
+  throw RunError(fmt::format("{}: {}: {}{}", path.string(), what, std::strerror(error),
+                             full ? "; make room there" : ""));
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ RunDirectory RunDirectory::create(const fs::path& path, const RunFacts& facts) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) {
-    throw RunError(fmt::format("{}: cannot be made: {}", path.string(), error.message()));
+    throw RunError(fmt::format("{}: cannot be made: {}; name a directory that you may write to",
+                               path.string(), error.message()));
   }
   if (fs::exists(path / "run.json")) {
     throw RunError(fmt::format(

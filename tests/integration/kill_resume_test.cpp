@@ -195,6 +195,32 @@ TEST(KillResume, keeps_its_memory_where_it_is_told_to) {
   std::filesystem::remove(memory);
 }
 
+/// Between two tries the journal is written; that the run is recorded again is said when the checkpoint is there.
+TEST(KillResume, a_checkpoint_that_cannot_be_written_is_told_once_and_again_when_it_can) {
+  const TemporaryDirectory home;
+  const std::filesystem::path run = home.path() / "run";
+  const std::filesystem::path in_its_way = run / "checkpoint-000001.bin.new";
+  std::filesystem::create_directories(in_its_way);
+  const auto corner = testing::private_corner();
+  GroundStation ground(corner);
+  Daemon daemon(kept_scene(corner, run));
+  const auto comes_to_step = [&](std::uint64_t step) {
+    return ground.until([&] { return ground.momentum["sat1"].step >= step; });
+  };
+  ASSERT_TRUE(comes_to_step(650))
+      << daemon.log();  // it was due at 300, and tried each second since
+  const std::string told = daemon.log();
+  const std::size_t first = told.find("the run cannot be recorded: " + in_its_way.string());
+  ASSERT_NE(first, std::string::npos) << told;
+  EXPECT_EQ(told.find("the run cannot be recorded", first + 1), std::string::npos) << told;
+  EXPECT_EQ(told.find("is recorded again"), std::string::npos) << told;
+  std::filesystem::remove(in_its_way);
+  ASSERT_TRUE(comes_to_step(850)) << daemon.log();
+  EXPECT_NE(daemon.log().find("the run is recorded again; nothing was lost"), std::string::npos)
+      << daemon.log();
+  EXPECT_EQ(daemon.stop(), 0);
+}
+
 TEST(KillResume, memory_that_is_none_is_refused_before_anything_is_begun) {
   const TemporaryDirectory home;
   const std::filesystem::path run = home.path() / "run";
