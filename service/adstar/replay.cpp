@@ -35,7 +35,10 @@ int replay(const std::string& directory) {
     Output output = Output::to_stdout();
     output.buffer() = reflight_text(flight);
     output.flush();
-    return flight.differs_at || stop_requested() ? kFailed : kDone;
+    if (flight.differs_at || stop_requested()) {
+      return kFailed;
+    }
+    return flight.hashes + flight.checkpoints == 0 ? kNoAnswer : kDone;
   } catch (const run::RunError& error) {
     throw Failure(kUsage, error.what());
   }
@@ -51,7 +54,7 @@ Verb add_replay(CLI::App& program) {
       ->type_name("FILE")
       ->required();
   verb->footer(
-      "Exit code 1 when the bits differ.\n"
+      "Exit code 1 when the bits differ, 4 when there is nothing to compare with.\n"
       "Example:\n  adstar replay runs/monday");
   return {verb, [directory] { return replay(*directory); }};
 }

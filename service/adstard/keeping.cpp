@@ -81,7 +81,7 @@ Keeping::Keeping(Plan& plan, const Options& options, runtime::Tick& tick,
       hot_ = run::HotJournalFile::create(plan.run->facts());
     }
     log = std::make_unique<run::RunLog>(*plan.run, scene, fingerprint, **hot_, flight, next_number_,
-                                        last_in_files_);
+                                        last_in_files_, !begins_with_checkpoint_);
     if (begins_with_checkpoint_ || scene.standby) {
       log->write_checkpoint(flight.at, runtime::state_of(tick.fleet()), scene.run.whole_history);
     }

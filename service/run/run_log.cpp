@@ -8,7 +8,7 @@ using runtime::JournalRecord;
 
 RunLog::RunLog(const RunDirectory& directory, const scene::Scene& scene, std::uint64_t fingerprint,
                runtime::HotJournal& hot, const Flight& start, std::uint64_t next_number,
-               std::uint64_t last_in_files)
+               std::uint64_t last_in_files, bool from_start)
     : directory_(directory),
       fingerprint_(fingerprint),
       hot_(hot),
@@ -20,7 +20,8 @@ RunLog::RunLog(const RunDirectory& directory, const scene::Scene& scene, std::ui
       next_number_(next_number),
       last_in_files_(last_in_files),
       journal_count_(directory.journals().empty() ? 1 : directory.journals().back().number + 1),
-      journal_(directory.journal_path(journal_count_), directory.facts().run) {
+      journal_(directory.journal_path(journal_count_), directory.facts().run),
+      from_start_(from_start) {
   gate_.load(start.gate.save());
   controls_.load(start.controls.save());
   for (const Numbered& file : directory.checkpoints()) {
@@ -95,6 +96,9 @@ void RunLog::remove_old() {
   while (kept_.size() > kCheckpoints) {
     std::filesystem::remove(kept_.front().path);
     kept_.pop_front();
+  }
+  if (from_start_ && kept_.size() < kCheckpoints) {
+    return;
   }
   for (const Numbered& journal : directory_.journals()) {
     if (journal.number < kept_.front().first_journal) {

@@ -20,11 +20,11 @@ namespace adstar::run {
 class RunLog {
  public:
   /// `start`: as the tick is when it starts, with record `next_number`. `last_in_files`: of the
-  /// records that need not be written again. Throws RunError, as all of these do when a file cannot
+  /// records that need not be written again. `from_start`: whether journals tell how it came there. Throws RunError, as all of these do when a file cannot
   /// be written; then nothing is lost, and the same call may be made again.
   RunLog(const RunDirectory& directory, const scene::Scene& scene, std::uint64_t fingerprint,
          runtime::HotJournal& hot, const Flight& start, std::uint64_t next_number,
-         std::uint64_t last_in_files);
+         std::uint64_t last_in_files, bool from_start);
 
   /// Moves what is in memory to the file; true when there was something.
   bool move_records();
@@ -34,7 +34,7 @@ class RunLog {
   void note_hash(const Instant& at, std::uint64_t hash);
 
   /// A checkpoint of the fleet there, all of whose commands were moved. The three newest are kept; of
-  /// the journal what they need, or all of it.
+  /// the journal what they need, or all of it. While there are fewer, the start of the run is one of them.
   void write_checkpoint(const Instant& at, const runtime::FleetState& fleet,
                         bool keep_all_journals);
 
@@ -59,6 +59,7 @@ class RunLog {
   std::deque<runtime::JournalRecord> unheard_;
   std::uint64_t journal_count_;
   JournalFile journal_;
+  bool from_start_;
   std::uint64_t next_checkpoint_ = 1;
   std::deque<Kept> kept_;  ///< checkpoints, oldest first
 };

@@ -182,7 +182,7 @@ class RecordedFlight {
   void start_log(std::uint64_t next_number, std::uint64_t last_in_files) {
     const run::Flight flight{gate_, controls_, &fleet_, scene_.simulation.step_ns, at_};
     log_ = std::make_unique<run::RunLog>(*directory_, scene_, 7, **hot_, flight, next_number,
-                                         last_in_files);
+                                         last_in_files, resumed.records.gap.empty());
     writer_.emplace(**hot_, next_number);
     gate_.record_in(&*writer_);
   }

@@ -130,6 +130,22 @@ TEST_F(KilledRun, goes_back_to_the_scene_when_no_checkpoint_is_whole) {
   expect_same(*flight, 9, 120);
 }
 
+TEST_F(KilledRun, goes_back_to_the_scene_while_it_has_fewer_than_three_checkpoints) {
+  std::optional<RecordedFlight> flight(std::in_place, 9, path_, run_);
+  for (const std::uint64_t step : {50U, 100U}) {
+    flight->run_to(step);
+    flight->checkpoint();
+  }
+  flight->run_to(120);
+  flight.reset();
+  for (const Numbered& file : RunDirectory::open(path_, RunDirectory::Use::look).checkpoints()) {
+    flip_a_bit(file.path, 200);
+  }
+  flight.emplace(9, path_);
+  EXPECT_EQ(flight->resumed.checkpoint.step, 0U);
+  expect_same(*flight, 9, 120);
+}
+
 /// The number of the format stands behind eight bytes that say what the file is.
 constexpr std::int64_t kFormat = 8;
 
