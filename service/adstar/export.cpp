@@ -127,8 +127,10 @@ scene::TaiDate epoch_of(const Options& options) {
   }
   const auto date = scene::tai_date(options.epoch_utc, scene::Clock::utc);
   if (!date) {
-    throw Failure(kUsage, fmt::format("--epoch-utc: got '{}', expected a date and time in UTC; {}",
-                                      options.epoch_utc, kTry));
+    throw Failure(
+        kUsage,
+        fmt::format("--epoch-utc: got '{}', expected a date and time in UTC, of 1972 or later; {}",
+                    options.epoch_utc, kTry));
   }
   return *date;
 }

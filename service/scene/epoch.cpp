@@ -72,7 +72,8 @@ std::optional<std::string> read_epoch(const Value& value, TimeScale scale) {
   const std::string_view local = utc ? without_utc_mark(text) : std::string_view(text);
   // ERFA knows which leap seconds there were.
   if (!is_date_and_time(local, scale) || !tai_date(local, utc ? Clock::utc : Clock::tai)) {
-    value.refuse(utc ? "a date and time in UTC" : "a date and time in TAI, without an offset",
+    value.refuse(utc ? "a date and time in UTC, of 1972 or later"
+                     : "a date and time in TAI, without an offset",
                  utc ? "2026-01-01T00:00:00Z" : "2026-01-01T00:00:00");
     return std::nullopt;
   }

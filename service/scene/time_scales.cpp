@@ -90,6 +90,10 @@ std::optional<TaiDate> tai_date(std::string_view text, Clock clock) {
     return std::nullopt;
   }
   const bool utc = clock == Clock::utc;
+  constexpr int kFirstOfLeapSeconds = 1972;  // before, UTC was stretched, or was not
+  if (utc && c->year < kFirstOfLeapSeconds) {
+    return std::nullopt;
+  }
   double day = 0, fraction = 0;
   // 1: a year that ERFA's leap seconds do not reach is taken with the last that it knows; above it, past the day's end.
   const int status = eraDtf2d(utc ? "UTC" : "TAI", c->year, c->month, c->day, c->hour, c->minute,

@@ -19,7 +19,7 @@ struct TaiDate {
 enum class Clock { utc, tai, tt, gps };
 
 /// Of "2026-01-01T00:00:00.5" or "2026-001T00:00:00" (day of the year), with or without a Z at its end; nothing when
-/// it is neither.
+/// it is neither, or in UTC before 1972.
 std::optional<TaiDate> tai_date(std::string_view text, Clock clock);
 
 /// Of Simulation::epoch, "2026-01-01T00:00:00 UTC" or "... TAI".

@@ -164,10 +164,11 @@ TEST(SceneLoader, refuses_a_rate_that_is_none_or_has_no_clock) {
 }
 
 TEST(SceneLoader, refuses_dates_that_are_none_and_two_epochs) {
-  const std::string utc = ", expected a date and time in UTC; try 2026-01-01T00:00:00Z";
-  for (const char* text :
-       {"2026-02-30T00:00:00", "2026-13-01T00:00:00", "2026-01-01", "2026-01-01T24:00:00",
-        "2026-01-01T00:00:60", "2026-01-01T00:00:00.", "2026-01-01T01:00:00+01:00", "tomorrow"}) {
+  const std::string utc =
+      ", expected a date and time in UTC, of 1972 or later; try 2026-01-01T00:00:00Z";
+  for (const char* text : {"2026-02-30T00:00:00", "2026-13-01T00:00:00", "2026-01-01",
+                           "2026-01-01T24:00:00", "2026-01-01T00:00:60", "2026-01-01T00:00:00.",
+                           "2026-01-01T01:00:00+01:00", "tomorrow", "1971-12-31T23:59:59"}) {
     EXPECT_EQ(refusal(in_simulation(std::string("epoch_utc = \"") + text + '"')),
               std::string("scene.toml:3:13: simulation.epoch_utc: got \"") + text + '"' + utc);
   }
