@@ -64,8 +64,9 @@ runtime::StatusRecord Housekeeping::status(std::uint64_t bridge_restarts, const 
   status.unresolved_spacecraft = read(report.unresolved_spacecraft);
   status.worst_momentum_residual_relative =
       report.worst_momentum_residual_relative.load(std::memory_order_relaxed);
-  status.commands_received = read(report.commands_received);
-  status.commands_refused = read(report.commands_refused);
+  const std::uint64_t not_of_the_scene = read(segment_->commands_refused);
+  status.commands_received = read(report.commands_received) + not_of_the_scene;
+  status.commands_refused = read(report.commands_refused) + not_of_the_scene;
   status.commands_lost = read(segment_->commands_lost);
   status.verdicts_lost = read(report.verdicts_lost);
   status.telemetry_lost = read(report.telemetry_lost);
@@ -224,8 +225,10 @@ void Housekeeping::summarise() const {
                  now.memory_locked != 0 ? "locked" : "not locked",
                  now.cpu_pinned != 0 ? "pinned to a processor" : "on any processor");
   }
-  spdlog::info("{} commands, {} of them refused", read(report.commands_received),
-               read(report.commands_refused));
+  const std::uint64_t not_of_the_scene = read(segment_->commands_refused);
+  spdlog::info("{} commands, repeats too, {} of them refused",
+               read(report.commands_received) + not_of_the_scene,
+               read(report.commands_refused) + not_of_the_scene);
 }
 
 }  // namespace adstar::adstard

@@ -241,8 +241,9 @@ int run(const Options& options, const scene::Scene& scene, runtime::MappedSegmen
         "stopped: {} commands handed over, {} refused here, {} too old, {} lost; {} verdicts, {} "
         "telemetry "
         "records, {} fleet chunks published, {} samples unsent",
-        intake.handed_over(), intake.refused(), intake.stale(), segment->commands_lost.load(),
-        counts.verdicts, counts.telemetry, counts.fleet_chunks, counts.unsent);
+        intake.handed_over(), segment->commands_refused.load(), intake.stale(),
+        segment->commands_lost.load(), counts.verdicts, counts.telemetry, counts.fleet_chunks,
+        counts.unsent);
   }
   if (voice) {
     voice->wait_for_readers(kLastAcks);

@@ -125,7 +125,7 @@ std::size_t CommandIntake::take_from_ros2() {
       take(ros2_->command(wrench, target, *wish.actuator));
       return;
     }
-    refused_.fetch_add(1);
+    segment_.commands_refused.fetch_add(1);
     log_refused_ros2(target.spacecraft, wish.objection);
   });
 }
@@ -176,7 +176,7 @@ void CommandIntake::take(const Command& command) {
 
 template <class Command>
 void CommandIntake::refuse(const Command& command, runtime::Reason reason) {
-  refused_.fetch_add(1);
+  segment_.commands_refused.fetch_add(1);
   runtime::VerdictRecord verdict;
   verdict.commander = {command.commander.high, command.commander.low};
   verdict.sequence = command.sequence_number;

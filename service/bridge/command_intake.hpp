@@ -35,7 +35,6 @@ class CommandIntake {
   void check() const;
 
   std::uint64_t handed_over() const noexcept { return handed_over_.load(); }
-  std::uint64_t refused() const noexcept { return refused_.load(); }
   std::uint64_t stale() const noexcept { return stale_.load(); }
 
  private:
@@ -64,7 +63,6 @@ class CommandIntake {
   RequestIntake requests_;
   dds::WaitSet wait_set_;
   std::atomic<std::uint64_t> handed_over_{0};
-  std::atomic<std::uint64_t> refused_{0};
   std::atomic<std::uint64_t> stale_{0};
   std::atomic<bool> ending_{false};
   std::atomic<bool> failed_{false};

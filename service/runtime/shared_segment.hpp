@@ -48,6 +48,8 @@ struct SharedSegment {
   std::atomic<std::uint32_t> snapshot_requested{
       0};  ///< by the bridge: publish everything at the next beat
   std::atomic<std::uint64_t> commands_lost{0};  ///< by the bridge: command ring was full
+  std::atomic<std::uint64_t> commands_refused{
+      0};  ///< by the bridge: for what the scene does not have
   std::atomic<std::uint32_t> wake_count{
       0};  ///< futex word: rises when there is something to publish
   std::atomic<std::uint32_t> bridge_sleeps{0};  ///< 1 while the bridge waits on wake_count

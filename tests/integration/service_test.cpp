@@ -174,6 +174,8 @@ TEST(Service, answers_every_bad_command_and_none_disturbs_the_state) {
   dds::set_text(nothing.actuator, "wheels");
   nothing.duration_ns = 1'000'000'000;
   refused(nothing, adstar_REASON_UNKNOWN_ACTUATOR);
+  EXPECT_TRUE(ground.until([&] { return ground.status && ground.status->commands_refused == 5; }))
+      << "of the tick and of the bridge: " << (ground.status ? ground.status->commands_refused : 0);
   ASSERT_TRUE(ground.until([&] { return ground.momentum["sat1"].time_ns > 50 * kMillisecond; }));
   auto past = ground.command("sat1", {0.1, 0, 0});
   past.start_time_ns = 1;

@@ -245,7 +245,7 @@ class Writer {
   }
 
   void of_commands() {
-    status("adstar_commands_received_total", "counter", "Commands that reached the gate.",
+    status("adstar_commands_received_total", "counter", "Commands that came, repeats too.",
            [](const Status& s) { return s.commands_received; });
     status("adstar_commands_refused_total", "counter", "Commands that were refused.",
            [](const Status& s) { return s.commands_refused; });
