@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 constexpr auto kRepeat = 50ms;
 constexpr auto kUntilSomebodyListens = 10ms;
 constexpr auto kAskAfter = 1s;
+constexpr auto kABeat = 500ms;
 /// Time for the service that does fly the spacecraft to speak up.
 constexpr auto kProvisional = 300ms;
 
@@ -178,6 +179,11 @@ bool Commander::silent(std::uint64_t sequence, std::chrono::nanoseconds timeout)
   return Clock::now() - dispatch.heard > patience;
 }
 
+bool Commander::waits(std::uint64_t sequence) const {
+  const Dispatch& dispatch = at(sequence);
+  return dispatch.answer && !dispatch.ended() && Clock::now() - dispatch.answered > kABeat;
+}
+
 void Commander::send_due(Clock::time_point now) {
   const bool listened_to = heard_by_anyone();
   for (auto& [sequence, dispatch] : dispatches_) {
@@ -225,6 +231,9 @@ bool Commander::receive(const adstar_CommandStatus& status, Clock::time_point no
   if (dispatch.answer && answer.reason == runtime::Reason::old_sequence) {
     dispatch.answer->forgotten = true;
     return true;
+  }
+  if (!dispatch.answer) {
+    dispatch.answered = now;
   }
   const bool news = !dispatch.answer || answer.is_final();
   dispatch.next_send = now + kAskAfter;

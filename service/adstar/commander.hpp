@@ -62,7 +62,8 @@ class Commander {
     std::optional<Answer> answer;
     std::optional<Answer> provisional;  ///< "I do not fly it": another service may
     Clock::time_point provisional_until;
-    Clock::time_point heard;  ///< when it was given, then when the last answer came
+    Clock::time_point heard;     ///< when it was given, then when the last answer came
+    Clock::time_point answered;  ///< when the first answer came
     Clock::time_point next_send;
 
     bool ended() const { return answer && answer->is_final(); }
@@ -84,6 +85,10 @@ class Commander {
   /// Nothing was heard of it for so long; what waits for its start is asked after only now and
   /// then.
   bool silent(std::uint64_t sequence, std::chrono::nanoseconds timeout) const;
+
+  /// It was accepted a while ago and is not final. Of an immediate order, which is final within a
+  /// beat, this tells that the clock stands: it begins with the next step.
+  bool waits(std::uint64_t sequence) const;
 
   /// Some service listens to commands.
   bool heard_by_anyone() const;

@@ -69,6 +69,10 @@ std::string service_text(const ListedService& service, bool all) {
   std::string text = fmt::format("service '{}': ", service.name);
   text += service.status ? status_lines(*service.status) : "no status yet\n";
   const std::size_t count = service.size();
+  // Mute but for its status: there is no roster to wait for.
+  if (count == 0 && service.status && service.status->state == adstar_SERVICE_STANDBY) {
+    return text + "  spacecraft: none until it goes on in the primary's place\n";
+  }
   text += fmt::format("  spacecraft: {}{}\n", report::counted(count),
                       service.roster_complete() ? "" : " heard so far; try a longer --timeout");
   std::size_t shown = 0;

@@ -49,18 +49,12 @@ void require_an_end(const OrderOptions& options) {
 
 ExitCode run_order(Commander& commander, const Order& order, const OrderOptions& options) {
   const std::uint64_t sequence = commander.give(order);
-  constexpr auto kABeat = 500ms;
-  using Clock = Commander::Clock;
-  std::optional<Clock::time_point> accepted_at;
   bool said_accepted = false;
   while (true) {
     commander.work(50ms);
     const auto& dispatch = commander.at(sequence);
-    if (dispatch.answer && !accepted_at) {
-      accepted_at = Clock::now();
-    }
-    const bool waits_long = accepted_at && (options.at_ns || Clock::now() - *accepted_at > kABeat);
-    if (dispatch.answer && (dispatch.ended() || (waits_long && !options.wait))) {
+    const bool waits = dispatch.answer && (options.at_ns || commander.waits(sequence));
+    if (dispatch.ended() || (waits && !options.wait)) {
       fmt::print("{}\n", verdict_sentence(*dispatch.answer, order));
       return exit_code_of(*dispatch.answer);
     }

@@ -33,7 +33,8 @@ ExitCode ProfileRun::run() {
   while (state_ != State::over) {
     commander_.work(50ms);
     if (stop_requested()) {
-      fmt::print(stderr, "adstar torque: interrupted; rows that were accepted still run\n");
+      fmt::print(stderr, "adstar torque: interrupted; {}\n",
+                 next_row_ == 0 ? "no row was sent" : "rows that were accepted still run");
       worst_ = std::max(worst_, kFailed);
       break;
     }
@@ -49,7 +50,7 @@ ExitCode ProfileRun::run() {
 }
 
 // Zero torque from now on takes the actuator, and its answer tells the time: the first row begins
-// where it ends.
+// where it ends. While the clock stands that time is known too, though the claim waits for a step.
 void ProfileRun::claim() {
   Order order;
   order.priority = request_.priority;
@@ -59,22 +60,25 @@ void ProfileRun::claim() {
 
 void ProfileRun::look_at_claim() {
   const auto& dispatch = commander_.at(claim_);
-  if (dispatch.ended()) {
-    const Answer& answer = *dispatch.answer;
-    worst_ = exit_code_of(answer);
-    if (worst_ != kDone) {
-      fmt::print("profile not begun: {}\n", verdict_sentence(answer, {}));
-      state_ = State::over;
-      return;
-    }
-    base_ns_ = answer.start_ns + kLead_ns;
-    fmt::print("profile begins at {} s\n", report::seconds_text(base_ns_));
-    state_ = State::sending;
-    give_next();
+  if (dispatch.ended() && exit_code_of(*dispatch.answer) != kDone) {
+    worst_ = exit_code_of(*dispatch.answer);
+    fmt::print("profile not begun: {}\n", verdict_sentence(*dispatch.answer, {}));
+    state_ = State::over;
+  } else if (dispatch.ended() || commander_.waits(claim_)) {
+    begin_after_claim();
   } else if (silent(claim_)) {
     worst_ = kNoAnswer;
     state_ = State::over;
   }
+}
+
+void ProfileRun::begin_after_claim() {
+  base_ns_ = commander_.at(claim_).answer->start_ns + kLead_ns;
+  commander_.forget(claim_);
+  fmt::print("profile begins at {} s\n", report::seconds_text(base_ns_));
+  std::fflush(stdout);
+  state_ = State::sending;
+  give_next();
 }
 
 // One unanswered row at a time: a later sequence number that arrived first would make the service
@@ -83,14 +87,28 @@ void ProfileRun::give_next() {
   const bool unanswered =
       std::any_of(on_their_way_.begin(), on_their_way_.end(),
                   [&](const auto& row) { return !commander_.at(row.first).answer; });
-  if (state_ == State::over || unanswered || on_their_way_.size() >= kMostOnTheirWay) {
+  if (state_ == State::over || unanswered) {
     return;
   }
-  if (next_row_ < rows_.size()) {
+  if (on_their_way_.size() >= kMostOnTheirWay) {
+    say_waiting();
+  } else if (next_row_ < rows_.size()) {
     on_their_way_.emplace(commander_.give(asked(next_row_)), next_row_);
     ++next_row_;
   } else if (on_their_way_.empty() || !request_.wait) {
     state_ = State::over;
+  } else {
+    say_waiting();
+  }
+}
+
+// Where the clock stands this lasts until somebody lets it go on.
+void ProfileRun::say_waiting() {
+  if (!said_waiting_) {
+    said_waiting_ = true;
+    fmt::print(stderr, "adstar torque: {} rows are accepted and wait for their start{}\n",
+               on_their_way_.size(),
+               next_row_ < rows_.size() ? "; the next ones are sent as those begin" : "");
   }
 }
 

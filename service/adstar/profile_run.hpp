@@ -33,9 +33,11 @@ class ProfileRun {
 
   void claim();
   void look_at_claim();
+  void begin_after_claim();
   void give_next();
   Order asked(std::size_t row) const;
   void look_at_rows();
+  void say_waiting();
   void report(std::uint64_t sequence, const Answer& answer);
   bool silent(std::uint64_t sequence) const;
   void summarise() const;
@@ -47,6 +49,7 @@ class ProfileRun {
   std::uint64_t claim_ = 0;
   std::int64_t base_ns_ = 0;
   std::size_t next_row_ = 0;
+  bool said_waiting_ = false;
   std::map<std::uint64_t, std::size_t> on_their_way_;  ///< sequence → row
   std::map<runtime::Verdict, std::size_t> verdicts_;
   ExitCode worst_ = kDone;

@@ -52,6 +52,17 @@ ExitCode tell(const adstar_StepReply& reply) {
   throw Failure(kFailed, unknown_answer_sentence(service));
 }
 
+/// Why no answer came, and what to do about steps that may be under way.
+std::string silence_sentence(const StepInquiry& inquiry, const Options& options) {
+  std::string text = no_reply_sentence(inquiry.heard_by_anyone(), options.request);
+  if (inquiry.heard_by_anyone() && options.steps > 0) {
+    text +=
+        ". The steps may still be taken: `adstar step --steps 0 --timeout 60s` asks where the "
+        "clock stands, `adstar pause` ends them where the scene allows run control";
+  }
+  return text;
+}
+
 int step(const Options& options) {
   log_to_stderr("step");
   catch_stop_signals();
@@ -64,7 +75,7 @@ int step(const Options& options) {
     return answer.outcome != adstar_STEP_ACCEPTED;
   });
   if (!reply) {
-    throw Failure(kNoAnswer, no_reply_sentence(inquiry.heard_by_anyone(), options.request));
+    throw Failure(kNoAnswer, silence_sentence(inquiry, options));
   }
   return tell(*reply);
 }

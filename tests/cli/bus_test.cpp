@@ -219,6 +219,22 @@ TEST(List, summarises_a_fleet_unless_asked_for_all) {
   EXPECT_EQ(lines_of(all.out()).back(), "    sat450  no actuators");
 }
 
+TEST(List, of_a_standby_says_that_its_spacecraft_are_the_primary_s) {
+  const auto place = own_place(93);
+  FakeDaemon daemon(place);
+  dds::Writer<adstar_ServiceStatus> statuses(daemon.participant());
+  adstar_ServiceStatus status{};
+  dds::set_text(status.service, "fake.standby");
+  status.state = adstar_SERVICE_STANDBY;
+  statuses.write(status);
+  Process client(at_place({"list"}, place));
+  EXPECT_EQ(daemon.serve(client, kDeaf), 0) << client.err();
+  const auto lines = lines_of(client.out());
+  ASSERT_EQ(lines.size(), 3U) << client.out();
+  EXPECT_EQ(lines[0].find("service 'fake.standby': a standby, "), 0U) << lines[0];
+  EXPECT_EQ(lines[2], "  spacecraft: none until it goes on in the primary's place");
+}
+
 TEST(List, nobody_is_exit_code_4) {
   const auto place = own_place(85);
   const Outcome outcome = run(at_place({"list", "--timeout", "300ms"}, place));

@@ -143,6 +143,19 @@ TEST(Step, a_silent_daemon_is_exit_code_4) {
   EXPECT_EQ(client.out(), "");
   EXPECT_NE(client.err().find("no answer from service 'fake' within 400ms"), std::string::npos)
       << client.err();
+  EXPECT_NE(
+      client.err().find("The steps may still be taken: `adstar step --steps 0 --timeout 60s` asks"),
+      std::string::npos)
+      << client.err();
+}
+
+TEST(Step, that_only_asks_warns_of_no_steps) {
+  const auto place = own_place(94);
+  FakeClock clock(place);
+  Process client(
+      at_place({"step", "--steps", "0", "--service", "fake", "--timeout", "400ms"}, place));
+  EXPECT_EQ(clock.serve(client), 4);
+  EXPECT_EQ(client.err().find("may still be taken"), std::string::npos) << client.err();
 }
 
 TEST(Step, finds_the_only_service_and_asks_which_of_several) {

@@ -57,6 +57,56 @@ TEST(Profile, without_a_start_takes_the_actuator_and_begins_where_that_ends) {
   expect_golden("profile_applied", client.out());
 }
 
+TEST(Profile, begins_on_a_clock_that_stands_where_the_claim_that_waits_ends) {
+  const auto place = own_place(90);
+  FakeDaemon daemon(place);
+  Process client(at_place({"torque", "sat1", "--profile", kGood}, place));
+  const int code = daemon.serve(client, [](const adstar_TorqueCommand& command) {
+    return Answers{answer_to(command, adstar_VERDICT_ACCEPTED)};
+  });
+  EXPECT_EQ(code, 0) << client.err();
+  const auto commands = by_sequence(daemon);
+  ASSERT_EQ(commands.size(), 3U);
+  EXPECT_EQ(commands.at(2).start_time_ns, 12'250'000'000);
+  EXPECT_EQ(commands.at(3).end_time_ns, 13'250'000'000);
+  expect_golden("profile_standing", client.out());
+}
+
+TEST(Profile, that_waits_for_its_rows_says_so_and_ends_on_ctrl_c) {
+  const auto place = own_place(91);
+  FakeDaemon daemon(place);
+  Process client(at_place({"torque", "sat1", "--profile", kGood, "--wait"}, place));
+  const std::string waits = "adstar torque: 2 rows are accepted and wait for their start\n";
+  bool sent = false;
+  const int code = daemon.serve(
+      client,
+      [](const adstar_TorqueCommand& command) {
+        return Answers{answer_to(command, adstar_VERDICT_ACCEPTED)};
+      },
+      [&] {
+        if (!sent && client.err() == waits) {
+          sent = true;
+          client.send(SIGINT);
+        }
+      });
+  EXPECT_EQ(code, 1);
+  EXPECT_EQ(client.err(),
+            waits + "adstar torque: interrupted; rows that were accepted still run\n");
+  EXPECT_EQ(lines_of(client.out()).back(), "profile of 2 rows: 2 accepted");
+}
+
+TEST(Profile, interrupted_before_its_first_row_says_that_none_was_sent) {
+  const auto place = own_place(92);
+  FakeDaemon daemon(place);
+  Process client(at_place({"torque", "sat1", "--profile", kGood}, place));
+  const int code = daemon.serve(client, [&](const adstar_TorqueCommand&) {
+    client.send(SIGINT);
+    return Answers{};
+  });
+  EXPECT_EQ(code, 1);
+  EXPECT_EQ(client.err(), "adstar torque: interrupted; no row was sent\n");
+}
+
 TEST(Profile, sends_a_row_only_when_the_one_before_is_answered) {
   const auto place = own_place(72);
   FakeDaemon daemon(place);

@@ -2,22 +2,23 @@
 
 #include "service/dashboard/server/site.hpp"
 
-#include <arpa/inet.h>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
-#include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/dashboard/http_client.hpp"
+
 namespace adstar::dashboard {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::HttpClient;
 
 /// A server on a bus where nobody speaks.
 struct Served {
@@ -33,40 +34,8 @@ struct Served {
   }
 };
 
-class Client {
- public:
-  explicit Client(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in place{};
-    place.sin_family = AF_INET;
-    place.sin_port = htons(static_cast<std::uint16_t>(port));
-    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
-  }
-  ~Client() { close(socket_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  bool say(const std::string& text) const {
-    return send(socket_, text.data(), text.size(), MSG_NOSIGNAL) ==
-           static_cast<ssize_t>(text.size());
-  }
-  /// All that comes until the server closes.
-  std::string hear() const {
-    std::string text;
-    char block[4096];
-    ssize_t count = 0;
-    while ((count = recv(socket_, block, sizeof block, 0)) > 0) {
-      text.append(block, static_cast<std::size_t>(count));
-    }
-    return text;
-  }
-
- private:
-  int socket_;
-};
-
 std::string answer_to(int port, const std::string& path, const std::string& more_head = "") {
-  const Client client(port);
+  const HttpClient client(port);
   client.say("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\n" +
              more_head + "\r\n");
   return client.hear();
@@ -77,7 +46,7 @@ class Dripping {
  public:
   Dripping(int port, int clients) {
     for (int i = 0; i < clients; ++i) {
-      clients_.push_back(std::make_unique<Client>(port));
+      clients_.push_back(std::make_unique<HttpClient>(port));
       clients_.back()->say("GET /");
     }
     thread_ = std::thread([this] {
@@ -99,7 +68,7 @@ class Dripping {
   bool gave_up() const { return gave_up_; }
 
  private:
-  std::vector<std::unique_ptr<Client>> clients_;
+  std::vector<std::unique_ptr<HttpClient>> clients_;
   std::atomic<bool> unwanted_ = false, gave_up_ = false;
   std::thread thread_;
 };
@@ -140,7 +109,7 @@ TEST(Site, reads_no_second_request_on_a_connection) {
   const Served served;
   const std::string request =
       "GET /about HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(served.port) + "\r\n\r\n";
-  const Client client(served.port);
+  const HttpClient client(served.port);
   client.say(request + request);
   const std::string heard = client.hear();
   const std::size_t first = heard.find("HTTP/1.1 200 OK");
@@ -150,7 +119,7 @@ TEST(Site, reads_no_second_request_on_a_connection) {
 
 TEST(Site, tells_a_command_that_is_too_long_so_in_the_form_that_the_page_reads) {
   const Served served(true);
-  const Client client(served.port);
+  const HttpClient client(served.port);
   client.say("POST /command HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(served.port) +
              "\r\nContent-Type: application/json\r\nContent-Length: 5000\r\n\r\n" +
              std::string(5000, ' '));

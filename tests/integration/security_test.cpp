@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "adstar/vec3.hpp"
+#include "service/dashboard/server/site.hpp"
 #include "service/dds/ros2.hpp"
+#include "tests/dashboard/http_client.hpp"
 #include "tests/integration/daemon_harness.hpp"
 #include "tests/support/process.hpp"
 
@@ -176,6 +178,38 @@ TEST(Security, a_watcher_sees_telemetry_and_answers_but_may_not_write_a_command)
   ASSERT_TRUE(now.has_value());
   EXPECT_EQ(momentum_of(*now), kUnmoved);
   EXPECT_EQ(daemon.stop(), 0) << daemon.log();
+}
+
+TEST(Security, a_dashboard_that_may_not_command_does_not_start_with_allow_commands) {
+  for (const std::string who : {"watcher", "daemon"}) {
+    const Outcome started =
+        client(private_corner(), {"dashboard", "--port", "0", "--allow-commands"},
+               authorities().of("ours/" + who));
+    EXPECT_EQ(started.code, 3) << started.err;
+    EXPECT_EQ(started.out, "");
+    EXPECT_TRUE(
+        contains(started.err, "ours/" + who + "' do not let it write adstar/torque_command"))
+        << started.err;
+  }
+}
+
+TEST(Security, a_dashboard_answers_403_to_a_command_that_it_may_not_send) {
+  const dds::Participant participant(as(private_corner(), authorities().files("ours/watcher")));
+  const dashboard::Bus bus(participant);
+  dashboard::PulseDesk desk(participant);
+  const dashboard::Site site(bus, desk, {0, true, "here"});
+  const std::string host = "127.0.0.1:" + std::to_string(site.port());
+  const std::string pulse =
+      R"({"spacecraft":"sat1","actuator":"body","torque_n_m":[0,0,0.05],"duration_s":5})";
+  const testing::HttpClient browser(site.port());
+  browser.say("POST /command HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
+              "\r\nContent-Type: application/json\r\nContent-Length: " +
+              std::to_string(pulse.size()) + "\r\n\r\n" + pulse);
+  const std::string heard = browser.hear();
+  for (const char* part :
+       {"HTTP/1.1 403 ", R"("verdict":"not_sent")", "adstar/torque_command", "do not allow it"}) {
+    EXPECT_TRUE(contains(heard, part)) << part << " in " << heard;
+  }
 }
 
 TEST(Security, topics_of_ros_2_are_for_those_for_whom_the_native_ones_are) {

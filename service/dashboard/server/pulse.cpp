@@ -19,8 +19,6 @@ using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
 constexpr auto kTimeout = 5s;
-/// An immediate order is final within a beat; where nothing follows in that time the clock stands.
-constexpr auto kABeat = 500ms;
 constexpr std::size_t kLongestName = 63;
 constexpr double kLongest_s = 1e6;
 constexpr std::array<std::string_view, 4> kKeys{"spacecraft", "actuator", "torque_n_m",
@@ -91,14 +89,10 @@ PulseAnswer PulseDesk::send(const Pulse& pulse) {
   using cli::Commander;
   Commander commander(participant_, pulse.target);
   const std::uint64_t sequence = commander.give(pulse.order);
-  std::optional<Commander::Clock::time_point> answered;
   while (!cli::stop_requested()) {
     commander.work(50ms);
     const auto& dispatch = commander.at(sequence);
-    if (dispatch.answer && !answered) {
-      answered = Commander::Clock::now();
-    }
-    if (dispatch.ended() || (answered && Commander::Clock::now() - *answered > kABeat)) {
+    if (dispatch.ended() || commander.waits(sequence)) {
       return plain(200, dds::verdict_text(dispatch.answer->verdict),
                    cli::verdict_sentence(*dispatch.answer, pulse.order));
     }

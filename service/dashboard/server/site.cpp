@@ -15,6 +15,7 @@
 #include "service/dashboard/server/limited_server.hpp"
 #include "service/dashboard/server/metrics_text.hpp"
 #include "service/dashboard/server/page.hpp"
+#include "service/dds/error.hpp"
 
 namespace adstar::dashboard {
 namespace {
@@ -222,6 +223,9 @@ void Site::command(const httplib::Request& request, httplib::Response& response)
     response.set_content(answer.json, kJson);
   } catch (const std::invalid_argument& error) {
     response.status = 400;
+    response.set_content(answer_json("not_sent", error.what()), kJson);
+  } catch (const dds::NotAllowed& error) {
+    response.status = 403;
     response.set_content(answer_json("not_sent", error.what()), kJson);
   } catch (const std::exception& error) {
     response.status = 500;

@@ -16,6 +16,8 @@
 #include "service/dashboard/server/page.hpp"
 #include "service/dashboard/server/pulse.hpp"
 #include "service/dashboard/server/site.hpp"
+#include "service/dds/error.hpp"
+#include "service/dds/writer.hpp"
 
 namespace adstar::cli {
 namespace {
@@ -28,10 +30,28 @@ struct Options {
   dds::ParticipantOptions place;
 };
 
+void require_permission_to_command(const dds::Participant& participant) {
+  try {
+    const dds::Writer<adstar_TorqueCommand> writer(participant);
+  } catch (const dds::NotAllowed&) {
+    const auto& security = participant.options().security;
+    throw Failure(
+        kRefused,
+        fmt::format("--allow-commands: the permissions of '{}' do not let it write {}; give "
+                    "--security keys of a commander (deploy/security/README.md), or leave "
+                    "--allow-commands out: the page then only shows",
+                    security ? security->permissions.parent_path().string() : "this client",
+                    dds::topic_of<adstar_TorqueCommand>().name));
+  }
+}
+
 int serve(const Options& options) {
   log_to_stderr("dashboard");
   catch_stop_signals();
   const dds::Participant participant(options.place);
+  if (options.allow_commands) {
+    require_permission_to_command(participant);
+  }
   dashboard::Bus bus(participant);
   dashboard::PulseDesk desk(participant);
   const dashboard::Site site(bus, desk,
