@@ -1,5 +1,7 @@
 // Recordings that have lost files or a part of one: what is left is read, what is lost is told, and its proof is kept.
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
 #include "bags.hpp"
@@ -150,6 +152,48 @@ TEST_F(Lost, metadata_of_rosbag2_has_names_without_quotes) {
   expect_lost(
       "has 3 of the 12 messages that its metadata.yaml tells of: bag_0.db3 has 3 of its 9, "
       "bag_1.db3 is missing");
+}
+
+std::string refusal_of(const fs::path& directory) {
+  try {
+    const Recording recording(directory);
+    recording.ending();
+    return "read as good";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST_F(Lost, what_is_no_database_is_to_be_moved_away) {
+  record();
+  std::ofstream(file("bag_1.db3")) << std::string(8192, 'x');
+  EXPECT_NE(refusal_of(home_ / "bag").find("file is not a database; is it a recording?"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(home_ / "bag").find("move it away"), std::string::npos);
+}
+
+void replace(std::string& text, const std::string& what, const std::string& with) {
+  const std::size_t at = text.find(what);
+  ASSERT_NE(at, std::string::npos) << text;
+  text.replace(at, what.size(), with);
+}
+
+TEST_F(Lost, a_damaged_file_is_saved_as_its_refusal_says) {
+  if (std::system("command -v sqlite3 >/dev/null") != 0) {
+    GTEST_SKIP() << "needs the program sqlite3";
+  }
+  record();
+  const fs::path damaged = file("bag_1.db3");
+  fs::resize_file(damaged, fs::file_size(damaged) - 4096);  // of the index
+  const std::string refusal = refusal_of(home_ / "bag");
+  const std::size_t begin = refusal.find('`') + 1;
+  std::string command = refusal.substr(begin, refusal.find('`', begin) - begin);
+  replace(command, "FILE", damaged.string());
+  replace(command, "NEW", (home_ / "new").string());
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  fs::rename(home_ / "new", damaged);
+  EXPECT_EQ(ending(), Recording::Ending::ended);
+  EXPECT_EQ(read().size(), 12U);
 }
 
 TEST_F(Lost, nothing_is_by_a_recorder_that_began_a_file_and_ended_after_it_was_opened) {
