@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// False where a recorder was killed while it began the file: nothing is in it. Throws Error on a database of somebody
-/// else, which stays as it is.
+/// else, which stays as it is, and on a file that was cut short.
 bool is_laid_out(const fs::path& file) {
   std::error_code none;
   if (fs::file_size(file, none) == 0) {
@@ -32,6 +32,7 @@ bool is_laid_out(const fs::path& file) {
         "left as it is; give the directory that `adstar record` made, or move this file out of it",
         file.string()));
   }
+  database.require_whole_pages();
   return tables.number(1) == 2;
 }
 

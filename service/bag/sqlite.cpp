@@ -170,6 +170,16 @@ void Database::read_log_without_index() {
   }
 }
 
+void Database::require_whole_pages() const {
+  Statement page = prepare("PRAGMA page_size");
+  page.step();
+  std::error_code none;
+  const auto size = std::filesystem::file_size(file_, none);
+  if (!none && !has_log(file_) && size % static_cast<std::uint64_t>(page.number(0)) != 0) {
+    fail(nullptr, SQLITE_CORRUPT, file_);
+  }
+}
+
 void Database::run(std::string_view sql) { prepare(sql).run(); }
 
 bool Database::leave_log() {

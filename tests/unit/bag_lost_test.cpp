@@ -164,6 +164,21 @@ std::string refusal_of(const fs::path& directory) {
   }
 }
 
+TEST_F(Lost, a_file_that_was_cut_short_is_refused_and_the_others_are_read_without_it) {
+  record();
+  const fs::path cut = file("bag_1.db3");
+  for (const std::uintmax_t less : {1, 100, 3'996, 1, 4'095}) {
+    fs::resize_file(cut, fs::file_size(cut) - less);
+    EXPECT_EQ(
+        refusal_of(home_ / "bag").rfind("'" + cut.string() + "': database disk image is malf", 0),
+        0U)
+        << refusal_of(home_ / "bag");
+  }
+  fs::rename(cut, file("bag_1.db3.damaged"));
+  expect_lost("has 9 of the 12 messages that its metadata.yaml tells of: bag_1.db3 is missing");
+  EXPECT_EQ(read().size(), 9U);
+}
+
 TEST_F(Lost, what_is_no_database_is_to_be_moved_away) {
   record();
   std::ofstream(file("bag_1.db3")) << std::string(8192, 'x');
