@@ -100,8 +100,7 @@ std::string only_spacecraft(const bag::Recording& recording, const Runs& runs,
   }
   if (runs.empty()) {
     require_motion(recording);
-    throw Failure(kUsage,
-                  "there is no attitude_state in the recording; was it left out by --topic?");
+    throw Failure(kUsage, "there is no attitude_state in the recording; " + why_absent(recording));
   }
   Wanted wanted(options.spacecraft);
   for (const auto& [spacecraft, run] : runs) {

@@ -55,6 +55,9 @@ bag::Recording open_recording(const std::string& directory, const char* verb) {
                    "adstar {}: '{}' is still being recorded; this is what was committed so far\n",
                    verb, directory);
         break;
+      case bag::Recording::Ending::incomplete:
+        fmt::print(stderr, "adstar {}: {}\n", verb, recording.lost());
+        break;
       case bag::Recording::Ending::cut_off:
         fmt::print(stderr,
                    "adstar {}: '{}' was not ended: was its recorder killed? metadata.yaml {}\n",
@@ -68,6 +71,11 @@ bag::Recording open_recording(const std::string& directory, const char* verb) {
   } catch (const bag::Error& error) {
     throw Failure(kUsage, error.what());
   }
+}
+
+std::string why_absent(const bag::Recording& recording) {
+  return recording.lost().empty() ? "was it left out by --topic?"
+                                  : "is it in what the recording has lost?";
 }
 
 void require_motion(const bag::Recording& recording) {
@@ -88,8 +96,8 @@ void require_motion(const bag::Recording& recording) {
                             "fleet_state: try `adstar export --to csv --topic fleet_state`; "
                             "spacecraft that the scene names in [telemetry] spacecraft have topics "
                             "of their own"
-                          : "there is no attitude_state or momentum_state in the recording; was it "
-                            "left out by --topic?");
+                          : "there is no attitude_state or momentum_state in the recording; " +
+                                why_absent(recording));
 }
 
 void say_unreadable(std::uint64_t count, const char* verb) {

@@ -1,35 +1,21 @@
 #include "service/bag/recording.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <fstream>
 #include <map>
-#include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "service/bag/directory_lock.hpp"
 #include "service/bag/sqlite.hpp"
+#include "service/bag/told.hpp"
 
 namespace adstar::bag {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// NAME_12.db3: 12; what has no number comes first.
-std::int64_t number_of(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const std::size_t bar = stem.rfind('_');
-  std::int64_t number = -1;
-  if (bar != std::string::npos) {
-    std::from_chars(stem.data() + bar + 1, stem.data() + stem.size(), number);
-  }
-  return number;
-}
-
 /// False where a recorder was killed while it began the file: nothing is in it. Throws Error on a database of somebody
-/// else, which stays as it is.
+/// else, which stays as it is, and on a file that was cut short.
 bool is_laid_out(const fs::path& file) {
   std::error_code none;
   if (fs::file_size(file, none) == 0) {
@@ -46,6 +32,7 @@ bool is_laid_out(const fs::path& file) {
         "left as it is; give the directory that `adstar record` made, or move this file out of it",
         file.string()));
   }
+  database.require_whole_pages();
   return tables.number(1) == 2;
 }
 
@@ -68,21 +55,6 @@ std::vector<fs::path> files_in(const fs::path& directory) {
     return std::pair(number_of(a), a) < std::pair(number_of(b), b);
   });
   return files;
-}
-
-/// What metadata.yaml says is in all files; nothing when there is none.
-std::optional<std::uint64_t> messages_told(const fs::path& directory) {
-  constexpr std::string_view kKey = "  message_count: ";
-  std::ifstream file(directory / kMetadataName);
-  std::uint64_t count = 0;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with(kKey) &&
-        std::from_chars(line.data() + kKey.size(), line.data() + line.size(), count).ec ==
-            std::errc{}) {
-      return count;
-    }
-  }
-  return std::nullopt;
 }
 
 /// Calls read(first, last) for one stretch of rows after the other, and after each tells which part of the file has been read:
@@ -175,24 +147,39 @@ Metadata Recording::count() const {
   return metadata;
 }
 
+Metadata Recording::messages_by_file() const {
+  Metadata there;
+  for (const fs::path& path : files_) {
+    const Database database(path, Database::Mode::open);
+    // Without its topics nobody can read a message.
+    Statement messages = database.prepare(
+        "SELECT CASE WHEN EXISTS (SELECT 1 FROM topics) "
+        "THEN (SELECT COUNT(*) FROM messages) ELSE 0 END");
+    messages.step();
+    FileInfo& file = there.files.emplace_back();
+    file.name = path.filename().string();
+    file.messages = static_cast<std::uint64_t>(messages.number(0));
+  }
+  return there;
+}
+
 Recording::Ending Recording::ending() const {
   const DirectoryLock lock(directory_, DirectoryLock::Kind::mender);
-  if (lock.refused()) {
+  // A recorder that has ended since this was opened may have begun files that are not among these.
+  if (lock.refused() || files_in(directory_) != files_) {
     return Ending::still_recorded;
   }
   leave_logs();
-  const auto told = messages_told(directory_);
-  if (!told) {
-    return Ending::cut_off;
+  const auto told = told_of(directory_);
+  const Metadata there = messages_by_file();
+  if (!bag::lost(directory_, told, there).empty()) {
+    return Ending::incomplete;
   }
-  std::uint64_t there = 0;
-  for (const fs::path& path : files_) {
-    const Database database(path, Database::Mode::open);
-    Statement messages = database.prepare("SELECT COUNT(*) FROM messages");
-    messages.step();
-    there += static_cast<std::uint64_t>(messages.number(0));
-  }
-  return there == *told ? Ending::ended : Ending::cut_off;
+  return told && told->messages == there.messages() ? Ending::ended : Ending::cut_off;
+}
+
+std::string Recording::lost() const {
+  return bag::lost(directory_, told_of(directory_), messages_by_file());
 }
 
 void Recording::leave_logs() const {
@@ -207,10 +194,9 @@ void Recording::leave_logs() const {
 
 bool Recording::mend() const {
   const DirectoryLock lock(directory_, DirectoryLock::Kind::mender);
-  if (lock.refused()) {
+  if (ending() != Ending::cut_off) {
     return false;
   }
-  leave_logs();
   const Metadata metadata = count();
   try {
     write_metadata(metadata, directory_);

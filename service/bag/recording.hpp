@@ -1,7 +1,8 @@
 #pragma once
 // A recording read back: every message in the order of its reception, over all files. That order is the
 // rows'; timestamps run back where the clock is set back. The files are what counts; a metadata.yaml that a
-// killed recorder left unwritten is made from them.
+// killed recorder left unwritten is made from them. What it tells of and they
+// do not have is lost: that metadata.yaml is the proof, and stays.
 
 #include <cstddef>
 #include <cstdint>
@@ -41,17 +42,21 @@ class Recording {
   enum class Ending {
     ended,
     still_recorded,
-    cut_off,  ///< no metadata.yaml, or one that does not have what the files have
+    incomplete,  ///< files, or a part of them, are no longer there: lost() says which
+    cut_off,     ///< no metadata.yaml, or one that tells of less than the files have
   };
   /// Where nobody holds it, files that were left with a log (somebody read them as they were ended, or their recorder was
   /// killed) become plain ones, if they may be written: who may not write there can only read those.
   Ending ending() const;
-  /// Writes metadata.yaml from what the files have; false when it cannot be written there, or is its
-  /// recorder's to write.
+  /// What is incomplete, for the user, and what to do; empty when nothing is known to be lost.
+  std::string lost() const;
+  /// Writes metadata.yaml of a recording that was cut off from what the files have; false when it cannot be written there,
+  /// or is not to be: its recorder's, or the proof of what was lost.
   bool mend() const;
 
  private:
   void leave_logs() const;
+  Metadata messages_by_file() const;  ///< names and messages alone
 
   std::filesystem::path directory_;
   std::vector<std::filesystem::path> files_;  ///< those that are laid out

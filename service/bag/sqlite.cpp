@@ -8,19 +8,29 @@ namespace {
 
 constexpr int kPatience_ms = 2000;
 
+const char* remedy_of(int code) {
+  switch (code & 0xff) {
+    case SQLITE_FULL:
+      return "make room on the disk";
+    case SQLITE_CANTOPEN:
+      return "choose a directory that you may write to";
+    case SQLITE_READONLY:
+      return "copy the recording to where you may write: its log has to be merged";
+    case SQLITE_CORRUPT:  // .recover is not in Debian's sqlite3
+      return "move FILE away: the other files are read without it, or with what `sqlite3 FILE "
+             ".dump | sed 's/^ROLLBACK.*/COMMIT;/' | sqlite3 NEW` saves of it, put in its place";
+    case SQLITE_NOTADB:
+      return "is it a recording? bring it back if there is a copy, or move it away: the other "
+             "files are read without it";
+    default:
+      return "see the disk, and who else has the file open";
+  }
+}
+
 [[noreturn]] void fail(sqlite3* database, int code, const std::filesystem::path& file) {
-  const int primary = code & 0xff;
-  const char* const remedy =
-      primary == SQLITE_FULL       ? "make room on the disk"
-      : primary == SQLITE_CANTOPEN ? "choose a directory that you may write to"
-      : primary == SQLITE_READONLY
-          ? "copy the recording to where you may write: its log has to be merged"
-      : primary == SQLITE_NOTADB || primary == SQLITE_CORRUPT
-          ? "is it a recording? `sqlite3 FILE .recover` saves what can be saved"
-          : "see the disk, and who else has the file open";
   throw Error(fmt::format("'{}': {}; {}", file.string(),
                           database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code),
-                          remedy));
+                          remedy_of(code)));
 }
 
 /// The URI of a file that nobody writes to while it is open (sqlite.org/uri.html).
@@ -157,6 +167,16 @@ void Database::read_log_without_index() {
     if ((code & 0xff) == SQLITE_BUSY) {
       run("PRAGMA locking_mode=NORMAL");
     }
+  }
+}
+
+void Database::require_whole_pages() const {
+  Statement page = prepare("PRAGMA page_size");
+  page.step();
+  std::error_code none;
+  const auto size = std::filesystem::file_size(file_, none);
+  if (!none && !has_log(file_) && size % static_cast<std::uint64_t>(page.number(0)) != 0) {
+    fail(nullptr, SQLITE_CORRUPT, file_);
   }
 }
 

@@ -66,6 +66,8 @@ class Database {
   /// From a write-ahead log to one plain file. False when somebody else has it open: whoever closes it
   /// last merges the log.
   bool leave_log();
+  /// Throws Error where the file was cut short within a page: SQLite takes what lacks for zeros, and rows for none.
+  void require_whole_pages() const;
   Statement prepare(std::string_view sql) const { return {database_.get(), file_, sql}; }
   std::int64_t last_row() const;
   const std::filesystem::path& file() const { return file_; }

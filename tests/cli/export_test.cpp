@@ -1,6 +1,9 @@
 // Recordings that were made up, exported: what a daemon says twice, late, or anew.
 
 #include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -79,6 +82,52 @@ TEST(Recording, without_motion_asks_whether_it_was_left_out) {
   const Outcome csv = client({"export", recording.directory(), "--to", "csv"});
   EXPECT_EQ(csv.code, 2);
   EXPECT_NE(csv.err.find("left out by --topic?"), std::string::npos) << csv.err;
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Recording, that_has_lost_a_file_is_read_with_a_warning_each_time_and_stays_as_it_is) {
+  MadeRecording recording({.max_bytes = {}, .max_duration_ns = 200'000'000});
+  recording.fly(1, 300);  // 100 steps a file
+  recording.finish();
+  const std::string metadata = text_of(recording.directory() + "/metadata.yaml");
+  std::filesystem::remove(recording.directory() + "/bag_1.db3");
+  for (int time = 0; time < 2; ++time) {
+    const Outcome csv = client({"export", recording.directory(), "--to", "csv"});
+    EXPECT_EQ(csv.code, 0) << csv.err;
+    EXPECT_EQ(lines_of(csv.out).size(), 201U);
+    const Outcome plot = client({"plot", recording.directory()});
+    EXPECT_EQ(plot.code, 0) << plot.err;
+    for (const std::string& err : {csv.err, plot.err, export_aem(recording).err}) {
+      EXPECT_NE(
+          err.find("has 400 of the 600 messages that its metadata.yaml tells of: bag_1.db3 is "
+                   "missing; this is what is left"),
+          std::string::npos)
+          << err;
+      EXPECT_EQ(err.find("not ended"), std::string::npos) << err;
+    }
+  }
+  EXPECT_EQ(text_of(recording.directory() + "/metadata.yaml"), metadata);
+}
+
+TEST(Recording, that_has_lost_everything_does_not_ask_whether_it_was_left_out) {
+  MadeRecording recording;
+  recording.fly(1, 10);
+  recording.finish();
+  std::filesystem::resize_file(recording.directory() + "/bag_0.db3", 0);
+  for (const Outcome& motion : {client({"export", recording.directory(), "--to", "csv"}),
+                                export_aem(recording), client({"plot", recording.directory()})}) {
+    EXPECT_EQ(motion.code, 2);
+    EXPECT_NE(motion.err.find("has 0 of the 20 messages that its metadata.yaml tells of: bag_0.db3 "
+                              "is empty"),
+              std::string::npos)
+        << motion.err;
+    EXPECT_NE(motion.err.find("in what the recording has lost"), std::string::npos) << motion.err;
+    EXPECT_EQ(motion.err.find("--topic"), std::string::npos) << motion.err;
+  }
 }
 
 TEST(ExportAem, goes_on_after_a_daemon_that_had_stood_still_said_something_old) {

@@ -55,6 +55,8 @@ inline adstar_MomentumState momentum_at(std::uint64_t step, std::string_view spa
 
 class MadeRecording {
  public:
+  explicit MadeRecording(bag::Rolling rolling = {}) : rolling_(rolling) {}
+
   std::string directory() const { return (home_ / "bag").string(); }
   std::string out(const std::string& name) const { return (home_ / name).string(); }
 
@@ -81,12 +83,13 @@ class MadeRecording {
   }
 
   Scratch home_;
+  bag::Rolling rolling_;
   bag::RollingWriter writer_{home_ / "bag",
                              {{"/adstar/attitude_state", "adstar/msg/AttitudeState", ""},
                               {"/adstar/momentum_state", "adstar/msg/MomentumState", ""},
                               {"/adstar/fleet_state", "adstar/msg/FleetState", ""},
                               {"/adstar/service_status", "adstar/msg/ServiceStatus", ""}},
-                             {}};
+                             rolling_};
 };
 
 }  // namespace adstar::testing

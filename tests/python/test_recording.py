@@ -73,6 +73,18 @@ def test_says_that_nobody_ended_it_and_writes_nothing_there(directory):
     assert sorted(directory.iterdir()) == before
 
 
+def test_says_what_is_lost_by_the_metadata_and_leaves_it(directory):
+    told = 'rosbag2_bagfile_information:\n  version: 5\n  message_count: 1000\n  files:\n    - path: "made_1.db3"\n'
+    told += "      message_count: 700\n"
+    (directory / "metadata.yaml").write_text(told)
+    with pytest.warns(adstar.RecordingWarning) as warned:
+        motion = adstar.read_recording(directory)["motion"]
+    assert len(motion) == 78
+    lost = r"has 233 of the 1000 messages that its metadata.yaml tells of: made_1.db3 is missing; this is what is left"
+    assert [bool(re.search(lost, str(w.message))) for w in warned] == [True]
+    assert (directory / "metadata.yaml").read_text() == told
+
+
 def test_leaves_out_samples_of_other_types_and_says_so(tmp_path):
     directory = made.write(
         tmp_path / "bag",

@@ -12,7 +12,7 @@ from . import _core, asked
 
 
 class RecordingWarning(UserWarning):
-    """A recording that is not whole: still being made, cut off, or with samples of other types."""
+    """A recording that is not whole: still being made, cut off, with a part lost, or with samples of other types."""
 
 
 def read_recording(

@@ -88,6 +88,8 @@ std::string how_it_ended(const bag::Recording& recording, const std::string& dir
     case bag::Recording::Ending::still_recorded:
       return fmt::format("'{}' is still being recorded; this is what was committed so far",
                          directory);
+    case bag::Recording::Ending::incomplete:
+      return recording.lost();
     case bag::Recording::Ending::cut_off:
       return fmt::format("'{}' was not ended: was its recorder killed? What it has was read",
                          directory);
