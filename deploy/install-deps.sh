@@ -22,7 +22,7 @@ if [[ "${1:-}" == "--tests" ]]; then
   packages+=(clang libclang-rt-14-dev clang-format clang-tidy doxygen libgtest-dev libgmock-dev libbenchmark-dev libboost-dev
              iproute2 git procps bash-completion valgrind chromium
              python3-pytest python3-matplotlib mypy
-             dpkg-dev file help2man lowdown mandoc)
+             dpkg-dev file help2man lowdown mandoc sqlite3)
 elif [[ -n "${1:-}" ]]; then
   echo "usage: install-deps.sh [--tests]" >&2
   exit 2
