@@ -8,10 +8,10 @@ set(units lib/systemd/system)
 
 install(TARGETS adstar adstard adstar-bridge RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT adstar)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${share} COMPONENT adstar)
-install(FILES ${deploy}/systemd/adstar@.service DESTINATION ${units} COMPONENT adstar)
+install(FILES ${deploy}/systemd/adstard@.service DESTINATION ${units} COMPONENT adstar)
 install(FILES ${deploy}/systemd/adstar.sysusers.conf DESTINATION lib/sysusers.d RENAME adstar.conf COMPONENT adstar)
 install(PROGRAMS ${deploy}/systemd/fly.sh DESTINATION lib/adstar RENAME fly COMPONENT adstar)
-install(FILES ${deploy}/systemd/standby.conf ${deploy}/systemd/adstar@.service DESTINATION ${share}/deploy/systemd COMPONENT adstar)
+install(FILES ${deploy}/systemd/standby.conf ${deploy}/systemd/adstard@.service DESTINATION ${share}/deploy/systemd COMPONENT adstar)
 install(DIRECTORY ${deploy}/scenes DESTINATION ${share}/deploy COMPONENT adstar)
 install(PROGRAMS ${deploy}/security/make.sh DESTINATION ${share}/deploy/security COMPONENT adstar)
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What adstar@NAME.service runs, and the container: goes on with the run of the scene where there is one, and begins it where there
+# What adstard@NAME.service runs, and the container: goes on with the run of the scene where there is one, and begins it where there
 # is none. With ADSTAR_ROLE=standby (standby.conf) it follows the daemon that flies the scene elsewhere, in a new run each time.
 #   fly NAME        the directories are those that systemd names: /etc/adstar, /var/lib/adstar, and /run/adstar, where there is one
 scene=$CONFIGURATION_DIRECTORY/$1.toml

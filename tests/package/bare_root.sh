@@ -88,7 +88,7 @@ await 30 "the daemon is on the bus" listed
 samples() { flying adstar monitor sat1 --for 2s --format csv 2> /dev/null | grep -c sat1 || true; }
 heard=$(samples)
 ((heard > 10)) || fail "adstar monitor heard $heard samples in 2 s"
-proved "what adstar@demo starts flies /etc/adstar/demo.toml as an account of no name; adstar monitor hears $heard samples in 2 s"
+proved "what adstard@demo starts flies /etc/adstar/demo.toml as an account of no name; adstar monitor hears $heard samples in 2 s"
 flying adstar torque sat1 --torque-n-m 0 0 0.05 --for 100ms > "$work/verdict.log" 2>&1 || fail "a command"
 proved "it obeys: $(head -n 1 "$work/verdict.log")"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What deploy/README.md says, done: one machine, two machines, a fleet in shards over two machines with a standby each. The
 # machines are network namespaces whose wire is called eth0; the scenes are those of deploy/scenes and configs/scenes as they are,
-# the keys are made by deploy/security/make.sh, and the daemons are started by what adstar@.service starts.
+# the keys are made by deploy/security/make.sh, and the daemons are started by what adstard@.service starts.
 #   bash tests/package/deployments.sh [build/release]
 # Builds nothing: cmake --build build/release --target adstard adstar-bridge adstar
 # Needs root and iproute2; where namespaces cannot be made, it says so and its exit code is 77.
@@ -32,7 +32,7 @@ clean_up() {
 }
 trap clean_up EXIT
 
-# start HOST NAME [standby]: as adstar@NAME of that host would; its /etc/adstar and /var/lib/adstar are of the host's own.
+# start HOST NAME [standby]: as adstard@NAME of that host would; its /etc/adstar and /var/lib/adstar are of the host's own.
 start() {
   local role=${3:-primary} environment=()
   local daemon="$2 ($role, $1)"
