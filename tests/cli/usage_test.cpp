@@ -1,5 +1,8 @@
 // Every wrong command line: its words and its exit code.
 
+#include <filesystem>
+#include <fstream>
+
 #include "tests/cli/client.hpp"
 
 namespace adstar::testing {
@@ -76,6 +79,17 @@ TEST(Usage, an_interface_that_is_not_there_is_named_with_those_that_are) {
   EXPECT_EQ(outcome.err.find("adstar list: "), 0U) << outcome.err;
   EXPECT_NE(outcome.err.find("nosuch0"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("lo"), std::string::npos) << outcome.err;
+}
+
+/// A script must not take it for one whose bits were found the same.
+TEST(Replay, of_a_run_that_left_nothing_to_compare_with_ends_with_a_code_of_its_own) {
+  const Scratch home;
+  std::filesystem::copy_file(std::filesystem::path(ADSTAR_SOURCE_DIR) / kFree, home / "scene.toml");
+  std::ofstream(home / "run.json") << R"({"run": "1", "scene_file": "scene.toml", "service": "",
+    "duration": "", "standby": false, "memory": "/dev/shm/adstar-none"})";
+  const Outcome replay = client({"replay", home.path().string()});
+  EXPECT_EQ(replay.code, 4) << replay.err;
+  EXPECT_NE(replay.out.find("nothing to compare with"), std::string::npos) << replay.out;
 }
 
 }  // namespace

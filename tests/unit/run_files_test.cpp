@@ -1,5 +1,8 @@
 // Checkpoints and journals as bytes: whole ones come back, no others do.
 
+#include <fcntl.h>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -7,6 +10,7 @@
 #include "service/run/checkpoint.hpp"
 #include "service/run/files.hpp"
 #include "service/run/journal_file.hpp"
+#include "service/run/run_directory.hpp"
 
 namespace adstar::run {
 namespace {
@@ -49,6 +53,23 @@ TEST(Checkpoint, cut_off_anywhere_or_longer_is_refused) {
     bytes.pop_back();
     EXPECT_THROW((void)checkpoint_from(bytes), RunError) << bytes.size();
   }
+}
+
+std::string complaint_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const RunError& error) {
+    return error.what();
+  }
+  return "it went well";
+}
+
+TEST(RunFiles, say_what_to_do_where_there_is_no_room_or_no_permission) {
+  const std::string full = complaint_of([] { File("/dev/full", O_WRONLY).write(Bytes(1)); });
+  EXPECT_EQ(full, "/dev/full: cannot be written: No space left on device; make room there");
+  const std::string none = complaint_of([] { RunDirectory::create("/proc/none/run", {}); });
+  EXPECT_EQ(none.rfind("/proc/none/run: cannot be made: ", 0), 0U) << none;
+  EXPECT_TRUE(none.ends_with("; name a directory that you may write to")) << none;
 }
 
 TEST(StateHash, sees_every_bit_and_the_step) {
