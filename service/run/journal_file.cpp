@@ -74,18 +74,18 @@ JournalText journal_from(std::span<const std::byte> bytes) {
   }
   text.unreadable = false;
   text.run = header->run;
-  while (!bytes.empty()) {
+  for (std::size_t place = 0; !bytes.empty(); ++place) {
     const auto entry = take<Entry>(bytes);
+    std::string damage;
     if (!entry) {
-      text.damage = fmt::format("is cut off in record {}", text.records.size());
-      break;
+      damage = fmt::format("is cut off in record {}", place);
+      bytes = {};
+    } else if (entry->sum != sum_of(entry->record)) {
+      damage = fmt::format("was changed in record {}: its checksum does not match", place);
+    } else {
+      text.records.push_back(entry->record);
     }
-    if (entry->sum != sum_of(entry->record)) {
-      text.damage =
-          fmt::format("was changed in record {}: its checksum does not match", text.records.size());
-      break;
-    }
-    text.records.push_back(entry->record);
+    text.damage = text.damage.empty() ? damage : text.damage;
   }
   return text;
 }

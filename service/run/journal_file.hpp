@@ -30,9 +30,9 @@ class JournalFile {
 
 struct JournalText {
   std::uint64_t run = 0;
-  std::vector<runtime::JournalRecord> records;  ///< up to the first that is not whole
-  std::string damage;                           ///< what is wrong with the rest; empty: nothing
-  bool unreadable = false;                      ///< nothing is known of what it holds
+  std::vector<runtime::JournalRecord> records;  ///< those that are whole
+  std::string damage;       ///< what was wrong first, and is not among them; empty: nothing
+  bool unreadable = false;  ///< nothing is known of what it holds
 };
 
 /// Never throws: what can be believed of the bytes.

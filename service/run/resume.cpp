@@ -18,6 +18,12 @@ using runtime::JournalRecord;
 /// Into its place, or, when one before it is missing, nowhere.
 void add(RunRecords& all, const JournalRecord& record) {
   if (!is_heard(record.kind)) {
+    // It was made when all up to its number had been heard.
+    all.highest = std::max(all.highest, record.number);
+    if (record.number >= all.next_number && all.gap.empty()) {
+      all.gap = fmt::format("records {} to {} of the journal are missing", all.next_number,
+                            record.number);
+    }
     (record.kind == JournalKind::state_hash ? all.hashes : all.digests).push_back(record);
     return;
   }

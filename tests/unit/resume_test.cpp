@@ -285,6 +285,44 @@ TEST_F(KilledRun, refuses_to_go_on_across_a_hole_in_the_journal_unless_told_to) 
   EXPECT_EQ(flight->hash(), hash);
 }
 
+/// Nothing of it is in memory any more: what stands behind it in the file, a hash at the least, tells of it.
+TEST_F(KilledRun, refuses_to_go_on_without_the_last_command_that_the_file_had) {
+  std::optional<RecordedFlight> flight(std::in_place, 2, path_, run_);
+  flight->run_to(100);
+  flight->log().move_records();
+  const fs::path journal = newest("journal-");
+  const auto last_command = static_cast<std::int64_t>(fs::file_size(journal)) - 50;
+  flight->log().note_hash(flight->at(), flight->hash());
+  flight.reset();
+  flip_a_bit(journal, last_command);
+  try {
+    flight.emplace(2, path_);
+    FAIL() << "went on";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("of the journal are missing"), std::string::npos)
+        << error.what();
+  }
+}
+
+/// Hashes of steps that it does not go on from stand in files of before.
+TEST_F(KilledRun, that_went_on_across_a_hole_is_not_where_it_was_before_it) {
+  std::optional<RecordedFlight> flight(std::in_place, 2, path_, run_);
+  flight->run_to(150);
+  flight->log().move_records();
+  flight->log().note_hash(flight->at(), flight->hash());
+  flight.reset();
+  const fs::path journal = newest("journal-");
+  flip_a_bit(journal, static_cast<std::int64_t>(fs::file_size(journal) / 4));
+  flight.emplace(2, path_, true);
+  const std::uint64_t after = flight->step() + 10;
+  ASSERT_LT(after, 150U);
+  flight->run_to(after);
+  const std::uint64_t hash = flight->hash();
+  flight.emplace(2, path_);
+  EXPECT_EQ(flight->step(), after);
+  EXPECT_EQ(flight->hash(), hash);
+}
+
 TEST_F(KilledRun, a_torn_end_of_the_journal_is_no_loss_while_the_memory_has_it) {
   std::optional<RecordedFlight> flight(std::in_place, 3, path_, run_);
   flight->run_to(50);
